@@ -1,0 +1,41 @@
+// Tables of precise satellite positions and clocks (SP3), and their interpolation.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "core/gnss/signal.h"
+
+namespace lodemark {
+
+struct PreciseSample {
+  std::int64_t time_gps_ns = 0;
+  Eigen::Vector3d position_in_ecef = Eigen::Vector3d::Zero();  // centre of mass
+  double clock_bias_s = 0.0;
+  double position_sigma_m = 0.0;  // 0 if unknown
+  bool has_clock = false;
+  bool maneuver = false;
+  bool predicted = false;
+};
+
+// Samples per satellite in ascending time.
+struct PreciseOrbits {
+  std::map<SatelliteId, std::vector<PreciseSample>> samples;
+};
+
+struct PreciseState {
+  Eigen::Vector3d position_in_ecef = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_in_ecef = Eigen::Vector3d::Zero();
+  double clock_bias_s = 0.0;  // without the relativistic term
+  double clock_drift_sps = 0.0;
+};
+
+// Polynomial interpolation of the positions, linear of the clocks, at time_gps_ns + fraction_s.
+// Empty where the table does not reach, has a gap or a manoeuvre, or lacks the clock.
+std::optional<PreciseState> InterpolatePrecise(const std::vector<PreciseSample>& samples,
+                                               std::int64_t time_gps_ns, double fraction_s);
+
+}  // namespace lodemark
