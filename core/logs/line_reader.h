@@ -1,6 +1,7 @@
 // Lines of a text file, plain or gzip, one at a time, without holding the file in memory.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -12,9 +13,11 @@ namespace lodemark {
 
 class LineReader {
  public:
+  static constexpr std::size_t kLongestLine = 64 * 1024;
+
   // Fails if the path is a directory, cannot be opened, or is empty.
   static Result<LineReader> Open(const std::string& path);
-  // The text must outlive the reader. name stands for the path in messages.
+  // Plain or gzip bytes that must outlive the reader. name stands for the path in messages.
   static LineReader FromMemory(std::string name, std::string_view text);
 
   LineReader(LineReader&&) noexcept;
@@ -22,8 +25,8 @@ class LineReader {
   ~LineReader();
 
   // The next line without its end (LF or CRLF), valid until the next call. Lines longer than
-  // 64 KiB are cut there and the rest is dropped. False at the end, or when reading failed: then
-  // status() says why.
+  // kLongestLine are cut there and the rest is dropped. A byte order mark is left out. False at the
+  // end, or when reading failed: then status() says why.
   bool Next(std::string_view* line);
 
   // Of the line last returned, from 1.
