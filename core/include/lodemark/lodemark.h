@@ -1,0 +1,571 @@
+/*
+ * Lodemark: where a phone is, from satellites and, in one adjustment with them, known landmarks.
+ *
+ * Conventions
+ *
+ * Coordinates  WGS 84, heights above the ellipsoid. "ecef" is earth-centred earth-fixed x, y, z;
+ *              "enu" is east, north, up; "geodetic" is latitude, longitude in degrees and height in
+ *              metres, in that order.
+ * Units        A name ends in its unit: _deg, _m, _mps (metres per second), _ns, _hz, _dbhz.
+ * Accuracy     _sigma_m is one standard deviation. _accuracy_m is the distance that holds the
+ *              truth 68 % of the time. A covariance is a full 3 x 3 matrix by rows.
+ * Time         int64_t nanoseconds. GPS time counts from 1980-01-06 00:00:00 GPS without leap
+ *              seconds. A session has one time base of its own, see lodemark_session_options.
+ * Status       Each function that can fail returns a lodemark_status: 0 is good, a positive value
+ *              is good news without an answer, a negative value is an error whose name says whose
+ *              move it is. After an error nothing was changed, unless the function says otherwise,
+ *              and lodemark_last_error() says what was wrong.
+ * Structs      Each begins with struct_size: set it to sizeof the struct, in inputs and outputs
+ *              alike, and zero the rest. Zero means the default, or nothing known. A shorter struct
+ *              from an older header is accepted and its missing fields are zero; a longer one from
+ *              a newer header is accepted while the part this library does not know is zero,
+ *              otherwise the call gives LODEMARK_ERROR_UNSUPPORTED. Of an output, the part this
+ *              library does not know is zeroed. Fields named reserved must be zero.
+ * Arrays       All elements of an array have the same struct_size. Of an output array only the
+ *              first element's must be set.
+ * Lists        A list is fetched as (out, capacity, count): at most capacity elements are written
+ *              to out, and *count is how many there are. With capacity 0, out may be NULL.
+ * Presence     A field that has a bit in the struct's present word counts only if the bit is set.
+ *              There is no NaN: a number that counts and is not finite gives
+ *              LODEMARK_ERROR_INVALID_ARGUMENT, and so do NULL and nonsense.
+ * Memory       The caller owns everything it passes in, and everything is copied. Handles are
+ *              closed with their _close function, which ignores NULL.
+ * Threads      A handle is used by one thread at a time; different handles, and the functions
+ *              without a handle, by any number of threads. Nothing here starts a thread, reads a
+ *              clock or calls back.
+ * Stability    Names, values and layouts do not change within liblodemark.so.1. The layouts are
+ *              the same for 32-bit and 64-bit programs.
+ */
+#ifndef LODEMARK_LODEMARK_H_
+#define LODEMARK_LODEMARK_H_
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define LODEMARK_API __attribute__((visibility("default")))
+#else
+#define LODEMARK_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Version, status, error. */
+
+#define LODEMARK_VERSION_MAJOR 0
+#define LODEMARK_VERSION_MINOR 1
+#define LODEMARK_VERSION_PATCH 0
+
+/* "0.1.0" of the library that runs, which may be newer than this header. */
+LODEMARK_API const char* lodemark_version(void);
+
+typedef int32_t lodemark_status;
+
+#define LODEMARK_OK 0
+/* Good news without an answer. */
+#define LODEMARK_NOTHING_QUEUED 1 /* process: no epoch is waiting */
+#define LODEMARK_NO_POSITION 2    /* done, but what was given determines no trustworthy position */
+/* The caller's move. */
+#define LODEMARK_ERROR_INVALID_ARGUMENT (-1) /* a value or a call that makes no sense */
+#define LODEMARK_ERROR_UNSUPPORTED (-2)      /* sound, but this version cannot serve it */
+#define LODEMARK_ERROR_OUT_OF_ORDER (-3)     /* called too early, or time ran backwards */
+#define LODEMARK_ERROR_QUEUE_FULL (-4)       /* process before pushing more */
+/* The system's, the data's, ours. */
+#define LODEMARK_ERROR_IO (-5)
+#define LODEMARK_ERROR_BAD_DATA (-6) /* malformed content of a file or message */
+#define LODEMARK_ERROR_OUT_OF_MEMORY (-7)
+#define LODEMARK_ERROR_INTERNAL (-8) /* a bug in this library */
+
+/* "INVALID_ARGUMENT", ... A static string; "UNKNOWN" for a value that is no status. */
+LODEMARK_API const char* lodemark_status_name(lodemark_status status);
+
+/*
+ * One sentence on the latest error of this thread, naming the field, file or record; "" before the
+ * first. The text stays until the next error on this thread.
+ */
+LODEMARK_API const char* lodemark_last_error(void);
+
+/* Steps: usable alone, no session needed. */
+
+/*
+ * Geodetic coordinates to earth-centred earth-fixed ones, and back. Latitude within -90 .. 90,
+ * longitude within -360 .. 360 (it comes back within -180 .. 180), lengths up to 1e9 m. Input and
+ * output may be the same array.
+ */
+LODEMARK_API lodemark_status lodemark_ecef_from_geodetic(const double geodetic[3],
+                                                         double ecef_m[3]);
+LODEMARK_API lodemark_status lodemark_geodetic_from_ecef(const double ecef_m[3],
+                                                         double geodetic[3]);
+
+/*
+ * A point in the local frame that has its origin at origin_geodetic and its axes east, north, up
+ * there, and back. Input and output may be the same array.
+ */
+LODEMARK_API lodemark_status lodemark_enu_from_ecef(const double origin_geodetic[3],
+                                                    const double ecef_m[3], double enu_m[3]);
+LODEMARK_API lodemark_status lodemark_ecef_from_enu(const double origin_geodetic[3],
+                                                    const double enu_m[3], double ecef_m[3]);
+
+/*
+ * UTC as Unix time (nanoseconds since 1970-01-01, days of 86,400 s) of a GPS time, and back, by the
+ * table of leap seconds that were announced (18 s since 2017). Years 1980 to 2099. A time inside a
+ * leap second counts with the seconds before it.
+ */
+LODEMARK_API lodemark_status lodemark_unix_from_gps(int64_t time_gps_ns, int64_t* time_unix_ns);
+LODEMARK_API lodemark_status lodemark_gps_from_unix(int64_t time_unix_ns, int64_t* time_gps_ns);
+
+/* Ranges that share a receiver clock error have the same group: 1 .. LODEMARK_CLOCK_GROUPS. */
+#define LODEMARK_CLOCK_GROUP_NONE 0 /* measured without a clock: a landmark */
+#define LODEMARK_CLOCK_GROUPS 16
+
+/* Most elements that an array handed to this library may have. */
+#define LODEMARK_LARGEST_COUNT 4096
+
+/* The measured distance to a known point: a satellite or a landmark. */
+typedef struct lodemark_range {
+  uint32_t struct_size;
+  int32_t clock_group;
+  double point_in_ecef_m[3]; /* of a satellite: at transmission, in the axes of reception time */
+  double range_m;            /* corrected for all but the receiver clock of its group */
+  double sigma_m;            /* positive */
+} lodemark_range;
+
+/* Bits of lodemark_solve_options.present. */
+#define LODEMARK_SOLVE_HAS_START 0x1u
+
+/* Bits of lodemark_solve_options.flags. */
+#define LODEMARK_SOLVE_USE_ALL 0x1u /* every range counts fully, however badly it fits */
+
+/* All zero is a good choice. */
+typedef struct lodemark_solve_options {
+  uint32_t struct_size;
+  uint32_t present;
+  uint32_t flags;
+  uint32_t reserved;
+  double start_in_ecef_m[3]; /* HAS_START: where to begin; otherwise the solver finds out itself */
+} lodemark_solve_options;
+
+/* Why there is a position, or why not. */
+#define LODEMARK_OUTCOME_NO_DATA 0 /* nothing was processed yet */
+#define LODEMARK_OUTCOME_FIX 1
+#define LODEMARK_OUTCOME_TOO_FEW 2      /* fewer usable measurements than unknowns */
+#define LODEMARK_OUTCOME_NO_EPHEMERIS 3 /* measurements, but no orbit for enough of them */
+#define LODEMARK_OUTCOME_NOT_CONVERGED 4
+#define LODEMARK_OUTCOME_INCONSISTENT 5 /* no subset that is large enough agrees */
+
+/* A position, valid if outcome is LODEMARK_OUTCOME_FIX; otherwise all other numbers are zero. */
+typedef struct lodemark_solution {
+  uint32_t struct_size;
+  int32_t outcome;
+  int32_t ranges_used;
+  uint32_t clocks_present; /* bit g - 1: clock_m of group g was determined */
+  double ecef_m[3];
+  double latitude_deg;
+  double longitude_deg;
+  double height_m;
+  double covariance_enu_m2[9];
+  double accuracy_m;          /* horizontal */
+  double vertical_accuracy_m; /* half-width */
+  double pdop;                /* the dilutions weigh every range that was used alike */
+  double hdop;
+  double vdop;
+  double tdop;                           /* of the first group determined; 0 if none */
+  double clock_m[LODEMARK_CLOCK_GROUPS]; /* of group g in [g - 1], times the speed of light */
+  double clock_sigma_m[LODEMARK_CLOCK_GROUPS];
+} lodemark_solution;
+
+/* How one range fared. */
+typedef struct lodemark_range_residual {
+  uint32_t struct_size;
+  int32_t used;      /* 1 or 0 */
+  double residual_m; /* measured minus computed */
+  double weight;     /* share of its full weight that it kept, 0 .. 1 */
+} lodemark_range_residual;
+
+/*
+ * Position from count ranges to known points, a clock per group included: three unknowns and one
+ * more for each group. A group with a single range says nothing about the position, and that range
+ * is not used. options may be NULL. residuals, unless NULL, has room for count elements, in the
+ * order of the ranges.
+ *
+ * LODEMARK_NO_POSITION if the ranges determine none; solution->outcome says why.
+ */
+LODEMARK_API lodemark_status lodemark_position_solve(const lodemark_range* ranges, int32_t count,
+                                                     const lodemark_solve_options* options,
+                                                     lodemark_solution* solution,
+                                                     lodemark_range_residual* residuals);
+
+/* Session: a stream of measurements in, a position at each epoch out. */
+
+/* Satellites are numbered as RINEX does: GLONASS by slot, QZSS by PRN - 192, SBAS by PRN - 100. */
+#define LODEMARK_SYSTEM_GPS 0
+#define LODEMARK_SYSTEM_GLONASS 1
+#define LODEMARK_SYSTEM_GALILEO 2
+#define LODEMARK_SYSTEM_BEIDOU 3
+#define LODEMARK_SYSTEM_QZSS 4
+#define LODEMARK_SYSTEM_NAVIC 5
+#define LODEMARK_SYSTEM_SBAS 6
+
+#define LODEMARK_TIME_BASE_GPS 0  /* recordings: epochs carry GPS time */
+#define LODEMARK_TIME_BASE_BOOT 1 /* phones: SystemClock.elapsedRealtimeNanos() */
+
+#define LODEMARK_IONOSPHERE_BEST 0 /* by the coefficients received, else climatology */
+#define LODEMARK_IONOSPHERE_NONE 1
+#define LODEMARK_IONOSPHERE_KLOBUCHAR 2
+#define LODEMARK_IONOSPHERE_BDGIM 3
+#define LODEMARK_IONOSPHERE_NTCM_G 4
+#define LODEMARK_IONOSPHERE_CLIMATOLOGY 5
+
+#define LODEMARK_TROPOSPHERE_SAASTAMOINEN 0
+#define LODEMARK_TROPOSPHERE_HOPFIELD 1
+#define LODEMARK_TROPOSPHERE_NONE 2
+
+#define LODEMARK_WEIGHT_SIGNAL 0    /* C/N0, elevation and reported uncertainty */
+#define LODEMARK_WEIGHT_ELEVATION 1 /* variance a^2 + b^2 / sin^2(elevation) */
+
+/* Bits of lodemark_session_options.flags. */
+#define LODEMARK_SESSION_VARIANCE_COMPONENTS 0x1u /* a and b of WEIGHT_ELEVATION from residuals */
+#define LODEMARK_SESSION_ZENITH_DELAY 0x2u        /* estimate a tropospheric zenith delay */
+#define LODEMARK_SESSION_HEIGHT_MEMORY 0x4u       /* a weak memory of the height */
+#define LODEMARK_SESSION_FIXED_BIASES 0x8u        /* learn no biases from past epochs */
+#define LODEMARK_SESSION_ACCEPT_UNHEALTHY 0x10u   /* use satellites that say they are unhealthy */
+
+/* All zero is a good choice. */
+typedef struct lodemark_session_options {
+  uint32_t struct_size;
+  int32_t time_base;
+  uint32_t systems; /* bit 1 << LODEMARK_SYSTEM_...; 0: all */
+  uint32_t flags;
+  int32_t ionosphere;
+  int32_t troposphere;
+  int32_t weight;
+  int32_t queue_capacity;    /* epochs that may wait for process; 0: 64, at most 4096 */
+  double elevation_mask_deg; /* 0: 5 degrees; -90: no mask */
+  double smallest_cn0_dbhz;  /* 0: 10 dB-Hz; negative: no limit */
+  double elevation_a_m;      /* of WEIGHT_ELEVATION; 0: 1 m */
+  double elevation_b_m;      /* of WEIGHT_ELEVATION; 0: 1 m */
+  uint64_t seed;             /* of every random choice; 0: 1 */
+} lodemark_session_options;
+
+typedef struct lodemark_session lodemark_session;
+
+/* Opens a session into *session; after an error *session is NULL. options may be NULL. */
+LODEMARK_API lodemark_status lodemark_session_open(const lodemark_session_options* options,
+                                                   lodemark_session** session);
+
+LODEMARK_API void lodemark_session_close(lodemark_session* session);
+
+/* Forgets positions, clocks, queued epochs, events and learned biases; keeps the orbits. */
+LODEMARK_API lodemark_status lodemark_session_reset(lodemark_session* session);
+
+/* Bits of lodemark_gnss_clock.present. */
+#define LODEMARK_CLOCK_HAS_LEAP_SECOND 0x1u
+#define LODEMARK_CLOCK_HAS_TIME_UNCERTAINTY 0x2u
+#define LODEMARK_CLOCK_HAS_FULL_BIAS 0x4u
+#define LODEMARK_CLOCK_HAS_BIAS 0x8u
+#define LODEMARK_CLOCK_HAS_BIAS_UNCERTAINTY 0x10u
+#define LODEMARK_CLOCK_HAS_DRIFT 0x20u
+#define LODEMARK_CLOCK_HAS_DRIFT_UNCERTAINTY 0x40u
+#define LODEMARK_CLOCK_HAS_ELAPSED_REALTIME 0x80u
+
+/* android.location.GnssClock, value by value. Fields without a bit above always count. */
+typedef struct lodemark_gnss_clock {
+  uint32_t struct_size;
+  uint32_t present;
+  int64_t time_ns;
+  int64_t full_bias_ns;
+  int64_t elapsed_realtime_ns;
+  double bias_ns;
+  double bias_uncertainty_ns;
+  double drift_nsps;
+  double drift_uncertainty_nsps;
+  double time_uncertainty_ns;
+  int32_t leap_second;
+  int32_t hardware_clock_discontinuity_count;
+} lodemark_gnss_clock;
+
+/* Bits of lodemark_gnss_measurement.present. */
+#define LODEMARK_MEASUREMENT_HAS_CARRIER_FREQUENCY 0x1u
+#define LODEMARK_MEASUREMENT_HAS_ACCUMULATED_DELTA_RANGE 0x2u
+#define LODEMARK_MEASUREMENT_HAS_SNR 0x4u
+#define LODEMARK_MEASUREMENT_HAS_AGC 0x8u
+#define LODEMARK_MEASUREMENT_HAS_BASEBAND_CN0 0x10u
+#define LODEMARK_MEASUREMENT_HAS_FULL_INTER_SIGNAL_BIAS 0x20u
+#define LODEMARK_MEASUREMENT_HAS_SATELLITE_INTER_SIGNAL_BIAS 0x40u
+#define LODEMARK_MEASUREMENT_HAS_CODE_TYPE 0x80u
+#define LODEMARK_MEASUREMENT_HAS_RECEIVED_TIME_UNCERTAINTY 0x100u
+#define LODEMARK_MEASUREMENT_HAS_RANGE_RATE 0x200u
+#define LODEMARK_MEASUREMENT_HAS_RANGE_RATE_UNCERTAINTY 0x400u
+#define LODEMARK_MEASUREMENT_HAS_CN0 0x800u
+#define LODEMARK_MEASUREMENT_HAS_GIVEN_PSEUDORANGE 0x1000u
+
+/* android.location.GnssMeasurement, value by value. Fields without a bit above always count. */
+typedef struct lodemark_gnss_measurement {
+  uint32_t struct_size;
+  uint32_t present;
+  int32_t svid;
+  int32_t constellation_type; /* GnssStatus.CONSTELLATION_... */
+  int32_t state;              /* GnssMeasurement.STATE_... bits */
+  int32_t accumulated_delta_range_state;
+  int32_t multipath_indicator;
+  int32_t reserved;
+  int64_t received_sv_time_ns;
+  int64_t received_sv_time_uncertainty_ns;
+  double time_offset_ns;
+  double cn0_dbhz;
+  double baseband_cn0_dbhz;
+  double pseudorange_rate_mps;
+  double pseudorange_rate_uncertainty_mps;
+  double accumulated_delta_range_m;
+  double accumulated_delta_range_uncertainty_m;
+  double carrier_frequency_hz;
+  double snr_db;
+  double agc_db;
+  double full_inter_signal_bias_ns;
+  double satellite_inter_signal_bias_ns;
+  double given_pseudorange_m; /* computed elsewhere; for logs whose time stamps lost their digits */
+  char code_type[8];          /* "C", "Q", ...; zero-terminated */
+} lodemark_gnss_measurement;
+
+/*
+ * Queues one GnssMeasurementsEvent. time_ns is its time in the session's base; a session based on
+ * GPS time takes the time from the clock and ignores it. LODEMARK_ERROR_QUEUE_FULL if too many
+ * epochs wait.
+ */
+LODEMARK_API lodemark_status lodemark_session_push_gnss(
+    lodemark_session* session, int64_t time_ns, const lodemark_gnss_clock* clock,
+    const lodemark_gnss_measurement* measurements, int32_t count);
+
+/* Bits of lodemark_observation_epoch.flags. */
+#define LODEMARK_EPOCH_CLOCK_DISCONTINUITY 0x1u /* reset or steered since the epoch before */
+
+/* One instant of a receiver that gives pseudoranges, as RINEX observation files hold them. */
+typedef struct lodemark_observation_epoch {
+  uint32_t struct_size;
+  uint32_t flags;
+  int64_t time_gps_ns;     /* the receiver's reading, which the pseudoranges refer to */
+  double time_fraction_ns; /* to be added to time_gps_ns */
+} lodemark_observation_epoch;
+
+/* Bits of lodemark_observation.present. */
+#define LODEMARK_OBSERVATION_HAS_PSEUDORANGE 0x1u
+#define LODEMARK_OBSERVATION_HAS_CARRIER_PHASE 0x2u
+#define LODEMARK_OBSERVATION_HAS_DOPPLER 0x4u
+#define LODEMARK_OBSERVATION_HAS_CN0 0x8u
+#define LODEMARK_OBSERVATION_HAS_PSEUDORANGE_SIGMA 0x10u
+#define LODEMARK_OBSERVATION_HAS_CARRIER_PHASE_SIGMA 0x20u
+#define LODEMARK_OBSERVATION_HAS_RANGE_RATE_SIGMA 0x40u
+#define LODEMARK_OBSERVATION_HAS_GLONASS_CHANNEL 0x80u
+
+/* Bits of lodemark_observation.flags. */
+#define LODEMARK_OBSERVATION_LOSS_OF_LOCK                 \
+  0x1u /* the phase may have slipped since the last epoch \
+        */
+#define LODEMARK_OBSERVATION_HALF_CYCLE_AMBIGUOUS 0x2u /* or be off by half a cycle */
+#define LODEMARK_OBSERVATION_MULTIPATH_DETECTED 0x4u
+
+/* One signal of one satellite. */
+typedef struct lodemark_observation {
+  uint32_t struct_size;
+  uint32_t present;
+  uint32_t flags;
+  int32_t system;
+  int32_t satellite;       /* from 1 */
+  int32_t glonass_channel; /* -7 .. 6 */
+  char signal[8];          /* band and attribute of RINEX 3 and 4: "1C", "5Q", "2" */
+  double frequency_hz;     /* of the carrier; 0: what the signal (and GLONASS channel) has */
+  double pseudorange_m;
+  double carrier_phase_cycles; /* grows with the range */
+  double doppler_hz;           /* positive when the satellite approaches */
+  double cn0_dbhz;
+  double pseudorange_sigma_m;
+  double carrier_phase_sigma_m;
+  double range_rate_sigma_mps;
+} lodemark_observation;
+
+/* Queues one epoch of observables. The rest is as with lodemark_session_push_gnss. */
+LODEMARK_API lodemark_status lodemark_session_push_observations(
+    lodemark_session* session, int64_t time_ns, const lodemark_observation_epoch* epoch,
+    const lodemark_observation* observations, int32_t count);
+
+/* What a text held. */
+typedef struct lodemark_read_report {
+  uint32_t struct_size;
+  uint32_t reserved;
+  int64_t rows_read;       /* rows or records that were taken */
+  int64_t rows_skipped;    /* malformed ones */
+  int64_t rows_unknown;    /* of a kind this version does not know */
+  char first_problem[256]; /* "name:line:column: why", "" if there was none */
+} lodemark_read_report;
+
+/*
+ * Takes the content of a file: RINEX navigation of any version, SP3 orbits and clocks; plain or
+ * gzip. name stands for the file in messages and may be NULL, and so may report. Malformed rows are
+ * counted and skipped; LODEMARK_ERROR_BAD_DATA if it is no such file at all.
+ */
+LODEMARK_API lodemark_status lodemark_session_push_navigation(lodemark_session* session,
+                                                              const char* name, const void* bytes,
+                                                              size_t byte_count,
+                                                              lodemark_read_report* report);
+LODEMARK_API lodemark_status lodemark_session_push_precise_orbits(lodemark_session* session,
+                                                                  const char* name,
+                                                                  const void* bytes,
+                                                                  size_t byte_count,
+                                                                  lodemark_read_report* report);
+
+/* android.location.GnssNavigationMessage but for its data. */
+typedef struct lodemark_broadcast_message {
+  uint32_t struct_size;
+  int32_t type; /* GnssNavigationMessage.TYPE_... */
+  int32_t svid;
+  int32_t message_id;
+  int32_t submessage_id;
+  int32_t reserved;
+} lodemark_broadcast_message;
+
+/*
+ * Takes a message as it was broadcast. An orbit takes effect when its last part has arrived.
+ * LODEMARK_ERROR_OUT_OF_ORDER before the first epoch gave a GPS time, LODEMARK_ERROR_UNSUPPORTED
+ * for a type this version does not decode, LODEMARK_ERROR_BAD_DATA if the data are damaged.
+ */
+LODEMARK_API lodemark_status lodemark_session_push_broadcast(
+    lodemark_session* session, const lodemark_broadcast_message* message, const uint8_t* bytes,
+    size_t byte_count);
+
+/*
+ * Turns the oldest waiting epoch into an estimate. LODEMARK_NOTHING_QUEUED if none waits,
+ * LODEMARK_NO_POSITION if the epoch was processed and gave none; the estimate then says why.
+ */
+LODEMARK_API lodemark_status lodemark_session_process(lodemark_session* session);
+
+/* How many epochs wait for process. */
+LODEMARK_API lodemark_status lodemark_session_queued(const lodemark_session* session,
+                                                     int32_t* count);
+
+/* Bits of lodemark_estimate.present. */
+#define LODEMARK_ESTIMATE_HAS_POSITION 0x1u
+#define LODEMARK_ESTIMATE_HAS_VELOCITY 0x2u
+#define LODEMARK_ESTIMATE_HAS_GPS_TIME 0x4u
+#define LODEMARK_ESTIMATE_HAS_PROTECTION_LEVEL 0x8u
+#define LODEMARK_ESTIMATE_HAS_VERTICAL_PROTECTION_LEVEL 0x10u
+
+/* Bits of lodemark_estimate.sources. */
+#define LODEMARK_SOURCE_GNSS 0x1u
+
+/* Where the antenna was at the epoch processed last. */
+typedef struct lodemark_estimate {
+  uint32_t struct_size;
+  uint32_t present;
+  int32_t outcome;
+  uint32_t sources;        /* what the position rests on */
+  int32_t satellites_used; /* distinct satellites, however many signals */
+  int32_t satellites_seen;
+  int64_t time_ns;     /* in the session's base */
+  int64_t time_gps_ns; /* HAS_GPS_TIME */
+  /* HAS_POSITION, down to tdop: */
+  double ecef_m[3];
+  double latitude_deg;
+  double longitude_deg;
+  double height_m;
+  double covariance_enu_m2[9];
+  double accuracy_m;          /* horizontal */
+  double vertical_accuracy_m; /* half-width */
+  double clock_bias_m;        /* receiver clock minus GPS time, times the speed of light */
+  double pdop;
+  double hdop;
+  double vdop;
+  double tdop;
+  /* HAS_VELOCITY, down to clock_drift_mps: */
+  double velocity_enu_mps[3];
+  double velocity_covariance_enu_m2ps2[9];
+  double speed_accuracy_mps;
+  double clock_drift_mps;
+  /* HAS_PROTECTION_LEVEL and HAS_VERTICAL_PROTECTION_LEVEL: */
+  double protection_level_m; /* horizontal */
+  double vertical_protection_level_m;
+} lodemark_estimate;
+
+/*
+ * The estimate of the epoch processed last. LODEMARK_NO_POSITION if it has no position;
+ * estimate->outcome says why.
+ */
+LODEMARK_API lodemark_status lodemark_session_estimate(const lodemark_session* session,
+                                                       lodemark_estimate* estimate);
+
+/* Why a signal was used, or why not. */
+#define LODEMARK_VERDICT_USED 0
+#define LODEMARK_VERDICT_DOWN_WEIGHTED 1
+#define LODEMARK_VERDICT_NO_EPHEMERIS 2
+#define LODEMARK_VERDICT_EPHEMERIS_TOO_OLD 3
+#define LODEMARK_VERDICT_UNHEALTHY 4
+#define LODEMARK_VERDICT_LOW_ELEVATION 5
+#define LODEMARK_VERDICT_WEAK_SIGNAL 6
+#define LODEMARK_VERDICT_NOT_TRACKING 7
+#define LODEMARK_VERDICT_TIME_AMBIGUOUS 8
+#define LODEMARK_VERDICT_IMPLAUSIBLE 9
+#define LODEMARK_VERDICT_OUTLIER 10
+#define LODEMARK_VERDICT_SYSTEM_OFF 11
+#define LODEMARK_VERDICT_UNKNOWN_SIGNAL 12
+#define LODEMARK_VERDICT_UNOBSERVABLE 13 /* the only one of its clock group */
+
+/* Bits of lodemark_satellite.present. */
+#define LODEMARK_SATELLITE_HAS_RESIDUAL 0x1u            /* residual_m, sigma_m */
+#define LODEMARK_SATELLITE_HAS_DIRECTION 0x2u           /* elevation_deg, azimuth_deg */
+#define LODEMARK_SATELLITE_HAS_RANGE_RATE_RESIDUAL 0x4u /* range_rate_residual_mps */
+#define LODEMARK_SATELLITE_HAS_CN0 0x8u                 /* cn0_dbhz */
+
+/* One signal of the epoch processed last. */
+typedef struct lodemark_satellite {
+  uint32_t struct_size;
+  uint32_t present;
+  int32_t system;
+  int32_t satellite;
+  int32_t verdict;
+  int32_t reserved;
+  char signal[8];    /* "1C", zero-terminated */
+  double residual_m; /* observed minus computed code range after the adjustment */
+  double sigma_m;    /* stated for the code range */
+  double weight;     /* share of its full weight that it kept, 0 .. 1 */
+  double elevation_deg;
+  double azimuth_deg; /* clockwise from north, 0 .. 360 */
+  double cn0_dbhz;
+  double range_rate_residual_mps;
+} lodemark_satellite;
+
+/* The signals of the epoch processed last. */
+LODEMARK_API lodemark_status lodemark_session_satellites(const lodemark_session* session,
+                                                         lodemark_satellite* out, int32_t capacity,
+                                                         int32_t* count);
+
+#define LODEMARK_EVENT_CLOCK_DISCONTINUITY 0 /* the receiver said so, or its bias was held anew */
+#define LODEMARK_EVENT_MILLISECOND_JUMP 1    /* found and repaired; value: milliseconds */
+#define LODEMARK_EVENT_TIME_BACKWARDS 2      /* an epoch older than the last one: dropped */
+#define LODEMARK_EVENT_DUPLICATE_EPOCH 3     /* the same time twice: the second dropped */
+#define LODEMARK_EVENT_FIRST_FIX 4
+#define LODEMARK_EVENT_FIX_LOST 5
+#define LODEMARK_EVENT_EPHEMERIS_MISSING 6 /* first time that a satellite had no orbit */
+
+/* Something that happened in between. */
+typedef struct lodemark_event {
+  uint32_t struct_size;
+  int32_t kind;
+  int64_t time_ns;     /* in the session's base */
+  int64_t time_gps_ns; /* 0 if unknown */
+  double value;        /* what the kind says */
+  char text[256];      /* one sentence, UTF-8, zero-terminated */
+} lodemark_event;
+
+/* The events since the last clear, oldest first. Of more than 256 the oldest are lost. */
+LODEMARK_API lodemark_status lodemark_session_events(const lodemark_session* session,
+                                                     lodemark_event* out, int32_t capacity,
+                                                     int32_t* count);
+
+LODEMARK_API lodemark_status lodemark_session_clear_events(lodemark_session* session);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* LODEMARK_LODEMARK_H_ */
