@@ -10,9 +10,9 @@ namespace lodemark {
 
 Eigen::Vector3d EcefFromGeodetic(const Geodetic& geodetic) {
   Eigen::Vector3d point;
-  GeographicLib::Geocentric::WGS84().Forward(
-      geodetic.latitude_rad * kDegreesPerRadian, geodetic.longitude_rad * kDegreesPerRadian,
-      geodetic.height_m, point.x(), point.y(), point.z());
+  GeographicLib::Geocentric::WGS84().Forward(geodetic.latitude_rad * kDegreesPerRadian,
+                                             geodetic.longitude_rad * kDegreesPerRadian,
+                                             geodetic.height_m, point.x(), point.y(), point.z());
   return point;
 }
 
@@ -33,8 +33,8 @@ Eigen::Matrix3d EnuFromEcefRotation(const Geodetic& place) {
   const double sin_lon = std::sin(place.longitude_rad);
   const double cos_lon = std::cos(place.longitude_rad);
   Eigen::Matrix3d enu_from_ecef;
-  enu_from_ecef << -sin_lon, cos_lon, 0.0,                      //
-      -sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat,          //
+  enu_from_ecef << -sin_lon, cos_lon, 0.0,              //
+      -sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat,  //
       cos_lat * cos_lon, cos_lat * sin_lon, sin_lat;
   return enu_from_ecef;
 }
