@@ -11,7 +11,12 @@ std::string FormatProblem(const std::string& file, const ReadProblem& problem) {
 
 void ReadReport::Skip(std::int64_t line, std::int32_t column, std::string_view message) {
   ++rows_skipped;
-  if (problems.size() < kKeptProblems) problems.push_back({line, column, std::string(message)});
+  if (has_room()) problems.push_back({line, column, std::string(message)});
+}
+
+void ReadReport::DropField(std::int64_t line, std::int32_t column, std::string_view message) {
+  ++values_dropped;
+  if (has_room()) problems.push_back({line, column, std::string(message)});
 }
 
 }  // namespace lodemark
