@@ -31,8 +31,6 @@ struct ReadReport {
   void Skip(std::int64_t line, std::int32_t column, std::string_view message);
   // The same for a value whose row was taken without it.
   void DropField(std::int64_t line, std::int32_t column, std::string_view message);
-  // The same for a value whose row was taken without it.
-  void Drop(std::int64_t line, std::int32_t column, std::string_view message);
   // Whether a further reason is kept at all.
   bool has_room() const { return problems.size() < kKeptProblems; }
 };
