@@ -1,0 +1,205 @@
+#include "core/fusion/point_adjustment.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/fusion/range_error.h"
+
+namespace lodemark {
+namespace {
+
+constexpr double kConverged_m = 1e-4;
+constexpr double kUnknownBias_m = 1e4;  // a sigma beyond which a bias counts as not known
+
+// Cauchy weights whose width shrinks step by step (graduated non-convexity), late errors held
+// more suspect than early ones.
+double GraduatedWeight(double residual_m, double sigma_m, double width) {
+  const double side = residual_m > 0.0 ? 0.7 : 1.3;
+  const double u = residual_m / (side * width * sigma_m);
+  return 1.0 / (sigma_m * sigma_m * (1.0 + u * u));
+}
+
+double Cost(const PointProblem& problem) {
+  double cost = problem.PriorCost();
+  for (const PointProblem::Row& row : problem.rows()) {
+    cost -= std::log(RangeErrorDensity(row.error, problem.Residual(row)));
+  }
+  return cost;
+}
+
+// Normal equations under the full error model at the present state. The weight of a row is its
+// information as ordinary noise; a floor keeps the step bounded where all rows are doubtful.
+void ModelNormals(const PointProblem& problem, PointMatrix* normal, PointVector* right) {
+  constexpr double kFloor = 0.05;
+  for (const PointProblem::Row& row : problem.rows()) {
+    const RangeErrorTerms terms = EvaluateRangeError(row.error, problem.Residual(row));
+    const double information = 1.0 / (row.error.sigma_m * row.error.sigma_m);
+    problem.Accumulate(row, information * std::max(terms.core_share, kFloor), terms.slope_pm,
+                       normal, right);
+  }
+  problem.AccumulatePriors(normal, right);
+}
+
+struct Normals {
+  explicit Normals(int unknowns)
+      : matrix(PointMatrix::Zero(unknowns, unknowns)), right(PointVector::Zero(unknowns)) {}
+
+  // False if the geometry leaves an unknown without support.
+  bool Solve(PointVector* step) {
+    const Eigen::LLT<PointMatrix, Eigen::Upper> factor(matrix);
+    if (factor.info() != Eigen::Success) return false;
+    *step = factor.solve(right);
+    return step->allFinite();
+  }
+
+  PointMatrix matrix;
+  PointVector right;
+};
+
+// Least squares from far away, then with shrinking kernels. False if there is no solution.
+bool Approach(PointProblem* problem, bool robust) {
+  const auto solve = [&](double width) {
+    Normals normals(problem->unknowns());
+    for (const PointProblem::Row& row : problem->rows()) {
+      const double residual_m = problem->Residual(row);
+      const double weight = GraduatedWeight(residual_m, row.error.sigma_m, width);
+      problem->Accumulate(row, weight, weight * residual_m, &normals.matrix, &normals.right);
+    }
+    problem->AccumulatePriors(&normals.matrix, &normals.right);
+    PointVector step;
+    if (!normals.Solve(&step)) return -1.0;
+    problem->Step(step);
+    return step.head<3>().norm();
+  };
+  for (int i = 0; i < 12; ++i) {
+    const double moved_m = solve(1e9);
+    if (moved_m < 0.0 || moved_m > 1e8) return false;
+    if (moved_m < 1.0) break;
+  }
+  if (!robust) return true;
+  for (double width = 16.0; width > 1.5; width *= 0.6) {
+    if (solve(width) < 0.0) return false;
+  }
+  return true;
+}
+
+// Descends to the mode of the posterior. Returns the number of iterations, or -1.
+int Descend(PointProblem* problem, int largest_iterations) {
+  double cost = Cost(*problem);
+  for (int i = 1; i <= largest_iterations; ++i) {
+    Normals normals(problem->unknowns());
+    ModelNormals(*problem, &normals.matrix, &normals.right);
+    PointVector step;
+    if (!normals.Solve(&step)) return -1;
+    const Eigen::Vector3d point = problem->point_in_ecef();
+    const PointVector clocks = problem->clock_state();
+    double scale = 1.0;
+    double new_cost = cost;
+    bool better = false;
+    for (int halving = 0; halving < 6; ++halving, scale *= 0.4) {
+      problem->clock_state() = clocks;
+      problem->MoveTo(point);
+      problem->Step(scale * step);
+      new_cost = Cost(*problem);
+      if (new_cost <= cost) {
+        better = true;
+        break;
+      }
+    }
+    if (!better) {
+      problem->clock_state() = clocks;
+      problem->MoveTo(point);
+      return i;
+    }
+    const double gain = cost - new_cost;
+    cost = new_cost;
+    if (scale * step.norm() < kConverged_m || (gain < 1e-9 && scale * step.norm() < 0.01)) return i;
+  }
+  return largest_iterations;
+}
+
+}  // namespace
+
+PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observations,
+                                   const Eigen::Vector3d& start_in_ecef, const ClockBiases& biases,
+                                   const PointOptions& options, PointEstimate* estimate,
+                                   std::vector<ObservationVerdict>* verdicts) {
+  *estimate = PointEstimate();
+  verdicts->assign(observations.size(), ObservationVerdict());
+  PointProblem problem(observations, biases, options.height, &rows_);
+  problem.MoveTo(start_in_ecef);
+  problem.GuessClocks();
+
+  // Groups nobody knows take one observation each to find their clock.
+  int redundancy = static_cast<int>(observations.size()) - 3 + (options.height ? 1 : 0);
+  for (int clock = 0; clock < problem.clocks(); ++clock) {
+    if (clock == 0 || problem.prior_sigma_m(clock) > kUnknownBias_m) --redundancy;
+  }
+  estimate->redundancy = redundancy;
+  if (redundancy < 0 || observations.empty()) return estimate->status = PointStatus::kTooFew;
+
+  if (!Approach(&problem, redundancy > 0)) return estimate->status = PointStatus::kNotConverged;
+  estimate->iterations = Descend(&problem, options.largest_iterations);
+  if (estimate->iterations < 0) return estimate->status = PointStatus::kNotConverged;
+
+  // Information at the mode.
+  Normals normals(problem.unknowns());
+  ModelNormals(problem, &normals.matrix, &normals.right);
+  const Eigen::LLT<PointMatrix, Eigen::Upper> factor(normals.matrix);
+  if (factor.info() != Eigen::Success) return estimate->status = PointStatus::kNotConverged;
+  const PointMatrix covariance =
+      factor.solve(PointMatrix::Identity(problem.unknowns(), problem.unknowns()));
+  estimate->covariance_enu_m2 = covariance.topLeftCorner<3, 3>();
+  estimate->clock_variance_m2 = problem.clocks() > 0 ? covariance(3, 3) : 0.0;
+
+  double doubtful = 0.0;
+  for (const PointProblem::Row& row : problem.rows()) {
+    doubtful += 1.0 - EvaluateRangeError(row.error, problem.Residual(row)).core_share;
+  }
+  if (options.posterior_mean && redundancy > 0 && problem.clocks() > 0 && doubtful > 0.1) {
+    if (!sampling_) sampling_.emplace(options.posterior_samples);
+    Eigen::Matrix4d proposal = 6.0 * covariance.topLeftCorner<4, 4>();
+    proposal += Eigen::Vector4d(25.0, 25.0, 50.0, 25.0).asDiagonal();
+    const PosteriorMoments moments = sampling_->Run(problem, proposal);
+    if (moments.effective_samples > 4.0 && moments.mean.allFinite()) {
+      PointVector step = PointVector::Zero(problem.unknowns());
+      step.head<4>() = moments.mean;
+      problem.Step(step);
+      estimate->covariance_enu_m2 = moments.covariance.topLeftCorner<3, 3>();
+      estimate->clock_variance_m2 = moments.covariance(3, 3);
+    }
+  }
+
+  estimate->position_in_ecef = problem.point_in_ecef();
+  const double pivot_bias_m = problem.clocks() > 0 ? biases[problem.group(0)].mean_m : 0.0;
+  estimate->clock_m = problem.clocks() > 0 ? problem.clock_state()[0] - pivot_bias_m : 0.0;
+  for (int clock = 0; clock < problem.clocks(); ++clock) {
+    const int group = problem.group(clock);
+    estimate->groups_seen |= 1u << group;
+    ClockBias& bias = estimate->biases[static_cast<std::size_t>(group)];
+    bias = biases[group];
+    if (clock == 0) continue;
+    const double sigma_m =
+        std::sqrt(covariance(3 + clock, 3 + clock) +
+                  biases[problem.group(0)].sigma_m * biases[problem.group(0)].sigma_m);
+    if (sigma_m < bias.sigma_m) {
+      bias = {pivot_bias_m + problem.clock_state()[clock], sigma_m};
+    }
+  }
+
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    const PointProblem::Row& row = problem.rows()[i];
+    ObservationVerdict& verdict = (*verdicts)[i];
+    verdict.residual_m = problem.Residual(row);
+    const RangeErrorTerms terms = EvaluateRangeError(row.error, verdict.residual_m);
+    verdict.weight = terms.core_share;
+    verdict.used = verdict.weight >= 0.5;
+    verdict.observable = row.clock <= 0 || problem.members(row.clock) > 1 ||
+                         problem.prior_sigma_m(row.clock) <= kUnknownBias_m;
+    if (verdict.used) ++estimate->used;
+  }
+  return estimate->status = PointStatus::kGood;
+}
+
+}  // namespace lodemark

@@ -1,0 +1,77 @@
+// The position of one epoch from ranges to known points, with a clock per group.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/fusion/clock_biases.h"
+#include "core/fusion/observation.h"
+#include "core/fusion/point_problem.h"
+#include "core/fusion/posterior_sampling.h"
+
+namespace lodemark {
+
+enum class PointStatus : std::uint8_t {
+  kGood,
+  kTooFew,         // fewer observations than unknowns
+  kNotConverged,   // the geometry does not fix the position
+  kInconsistent,   // no subset large enough agrees
+};
+
+struct PointOptions {
+  int largest_iterations = 20;
+  // Posterior mean over the whole error model instead of its mode wherever some ranges disagree.
+  bool posterior_mean = true;
+  int posterior_samples = 1024;
+  std::optional<HeightPrior> height;
+  // Probability of the risk that the protection levels leave.
+  double integrity_risk = 1e-5;
+};
+
+struct ObservationVerdict {
+  double residual_m = 0.0;
+  double weight = 0.0;  // probability that the error is ordinary noise, relative to a clean one
+  bool used = false;    // weight at least a half
+  bool observable = true;  // false: the only one of a clock group nobody knows
+};
+
+struct PointEstimate {
+  PointStatus status = PointStatus::kTooFew;
+  Eigen::Vector3d position_in_ecef = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_enu_m2 = Eigen::Matrix3d::Zero();
+  double clock_m = 0.0;          // of group 0
+  double clock_variance_m2 = 0.0;
+  // Of the groups seen, after the epoch.
+  std::array<ClockBias, kMaxClockGroups> biases = {};
+  std::uint32_t groups_seen = 0;  // bit per group
+  double hdop = 0.0;
+  double vdop = 0.0;
+  double pdop = 0.0;
+  double tdop = 0.0;
+  double protection_level_m = 0.0;
+  double vertical_protection_level_m = 0.0;
+  int used = 0;
+  int redundancy = 0;
+  int iterations = 0;
+};
+
+// Keeps its workspace: solving allocates nothing once it has seen as many observations.
+class PointAdjustment {
+ public:
+  // start_in_ecef: where to begin; only the way to the answer depends on it. biases: what is
+  // known of the groups. verdicts: one per observation.
+  PointStatus Solve(std::span<const RangeObservation> observations,
+                    const Eigen::Vector3d& start_in_ecef, const ClockBiases& biases,
+                    const PointOptions& options, PointEstimate* estimate,
+                    std::vector<ObservationVerdict>* verdicts);
+
+ private:
+  std::vector<PointProblem::Row> rows_;
+  std::optional<PosteriorSampling> sampling_;
+};
+
+}  // namespace lodemark

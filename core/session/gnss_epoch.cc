@@ -1,0 +1,221 @@
+#include "core/session/gnss_epoch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/units.h"
+#include "core/geo/geodetic.h"
+#include "core/gnss/troposphere.h"
+
+namespace lodemark {
+namespace {
+
+constexpr double kEarthRotation_radps = 7.2921151467e-5;
+
+// Orbit and clock errors of broadcast sets projected on the line of sight, where no accuracy is
+// stated, and the share of a stated URA, an upper bound, that is real.
+constexpr double kUnstatedOrbitSigma_m = 1.0;
+constexpr double kUraShare = 0.4;
+constexpr double kPreciseOrbitSigma_m = 0.1;
+
+// Turns a vector by the earth's rotation during the flight of the signal.
+Eigen::Vector3d RotateByFlight(const Eigen::Vector3d& vector, double flight_s) {
+  const double angle = kEarthRotation_radps * flight_s;
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  return {c * vector.x() + s * vector.y(), -s * vector.x() + c * vector.y(), vector.z()};
+}
+
+SatelliteVerdict VerdictOf(OrbitVerdict verdict) {
+  switch (verdict) {
+    case OrbitVerdict::kTooOld:
+      return SatelliteVerdict::kEphemerisTooOld;
+    case OrbitVerdict::kUnhealthy:
+      return SatelliteVerdict::kUnhealthy;
+    case OrbitVerdict::kNoEphemeris:
+    case OrbitVerdict::kGood:
+      break;
+  }
+  return SatelliteVerdict::kNoEphemeris;
+}
+
+double OrbitSigma(const SatelliteState& state) {
+  if (state.precise) return kPreciseOrbitSigma_m;
+  if (state.accuracy_m <= 0.0) return kUnstatedOrbitSigma_m;
+  return std::clamp(kUraShare * state.accuracy_m, 0.5, 100.0);
+}
+
+}  // namespace
+
+int ClockGroups::Group(System system, char band) {
+  for (int i = 0; i < count_; ++i) {
+    const Key& key = keys_[static_cast<std::size_t>(i)];
+    if (key.system == system && key.band == band) return i;
+  }
+  if (count_ == kMaxClockGroups) return -1;
+  keys_[static_cast<std::size_t>(count_)] = {system, band};
+  return count_++;
+}
+
+void GnssEpochModel::FindSatellites(const ObservationEpoch& epoch, const SatelliteOrbits& orbits,
+                                    std::vector<SatelliteStatus>* statuses) {
+  prepared_.clear();
+  used_.clear();
+  ranges_.clear();
+  rates_.clear();
+  rate_signals_.clear();
+  for (std::size_t i = 0; i < epoch.signals.size(); ++i) {
+    const SignalObservation& signal = epoch.signals[i];
+    SatelliteStatus& status = (*statuses)[i];
+    status = SatelliteStatus();
+    status.satellite = signal.satellite;
+    status.signal = signal.signal;
+    status.cn0_dbhz = signal.Has(kHasCn0) ? signal.cn0_dbhz : 0.0;
+    if ((options_.systems >> static_cast<int>(signal.satellite.system) & 1u) == 0) {
+      status.verdict = SatelliteVerdict::kSystemOff;
+      continue;
+    }
+    if (!signal.Has(kHasPseudorange)) {
+      status.verdict = SatelliteVerdict::kNotTracking;
+      continue;
+    }
+    PreparedSignal prepared;
+    prepared.index = i;
+    const OrbitVerdict verdict =
+        orbits.AtTransmission(signal.satellite, signal.signal, epoch.time_gps_ns,
+                              signal.pseudorange_m, 0.0, &prepared.satellite);
+    if (verdict != OrbitVerdict::kGood) {
+      status.verdict = VerdictOf(verdict);
+      continue;
+    }
+    prepared.clock_group = groups_.Group(signal.satellite.system, signal.signal.band);
+    if (prepared.clock_group < 0) {
+      status.verdict = SatelliteVerdict::kUnknownSignal;
+      continue;
+    }
+    prepared_.push_back(prepared);
+  }
+}
+
+const std::vector<RangeObservation>& GnssEpochModel::CoarseRanges(const ObservationEpoch& epoch) {
+  ranges_.clear();
+  for (const PreparedSignal& prepared : prepared_) {
+    const SignalObservation& signal = epoch.signals[prepared.index];
+    RangeObservation range;
+    // A usual flight time turns the satellite to within some hundred metres.
+    constexpr double kUsualFlight_s = 0.075;
+    range.point_in_ecef = RotateByFlight(prepared.satellite.position_in_ecef, kUsualFlight_s);
+    range.range_m =
+        signal.pseudorange_m + kSpeedOfLight_mps * prepared.satellite.clock_bias_s;
+    range.clock_group = prepared.clock_group;
+    range.error.sigma_m = 10.0;
+    ranges_.push_back(range);
+  }
+  return ranges_;
+}
+
+void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d& place_in_ecef,
+                           const IonosphereModel& ionosphere, const RangeWeights& weights,
+                           std::vector<SatelliteStatus>* statuses) {
+  used_.clear();
+  ranges_.clear();
+  rates_.clear();
+  rate_signals_.clear();
+  const Geodetic place = GeodeticFromEcef(place_in_ecef);
+  const Eigen::Matrix3d enu_from_ecef = EnuFromEcefRotation(place);
+  for (PreparedSignal prepared : prepared_) {
+    const SignalObservation& signal = epoch.signals[prepared.index];
+    SatelliteStatus& status = (*statuses)[prepared.index];
+    const double flight_s =
+        (prepared.satellite.position_in_ecef - place_in_ecef).norm() / kSpeedOfLight_mps;
+    prepared.satellite_in_ecef = RotateByFlight(prepared.satellite.position_in_ecef, flight_s);
+    prepared.satellite_velocity_in_ecef =
+        RotateByFlight(prepared.satellite.velocity_in_ecef, flight_s);
+    const LookAngles look = LookAnglesTo(prepared.satellite_in_ecef, place_in_ecef, enu_from_ecef);
+    prepared.elevation_rad = look.elevation_rad;
+    prepared.azimuth_rad = look.azimuth_rad;
+    status.elevation_rad = look.elevation_rad;
+    status.azimuth_rad = look.azimuth_rad;
+    status.has_direction = true;
+    if (look.elevation_rad < options_.elevation_mask_rad) {
+      status.verdict = SatelliteVerdict::kLowElevation;
+      continue;
+    }
+    if (signal.Has(kHasCn0) && signal.cn0_dbhz < options_.smallest_cn0_dbhz) {
+      status.verdict = SatelliteVerdict::kWeakSignal;
+      continue;
+    }
+    double ionosphere_sigma_m = 0.0;
+    double troposphere_sigma_m = 0.0;
+    double delay_m = 0.0;
+    if (options_.ionosphere != IonosphereChoice::kNone) {
+      std::optional<IonosphereModel::Kind> kind;
+      switch (options_.ionosphere) {
+        case IonosphereChoice::kKlobuchar:
+          kind = IonosphereModel::Kind::kKlobuchar;
+          break;
+        case IonosphereChoice::kBdgim:
+          kind = IonosphereModel::Kind::kBdgim;
+          break;
+        case IonosphereChoice::kNtcmG:
+          kind = IonosphereModel::Kind::kNtcmG;
+          break;
+        case IonosphereChoice::kClimatology:
+          kind = IonosphereModel::Kind::kClimatology;
+          break;
+        case IonosphereChoice::kBest:
+        case IonosphereChoice::kNone:
+          break;
+      }
+      delay_m += ionosphere.Delay(place, place_in_ecef, prepared.satellite_in_ecef, look,
+                                  epoch.time_gps_ns, signal.frequency_hz, &ionosphere_sigma_m, kind);
+    }
+    if (options_.troposphere != TroposphereChoice::kNone) {
+      delay_m += TroposphereDelay(place, look.elevation_rad, epoch.time_gps_ns,
+                                  &troposphere_sigma_m);
+    }
+    prepared.atmosphere_m = delay_m;
+    const double orbit_sigma_m = OrbitSigma(prepared.satellite);
+    prepared.model_sigma_m =
+        std::sqrt(orbit_sigma_m * orbit_sigma_m + ionosphere_sigma_m * ionosphere_sigma_m +
+                  troposphere_sigma_m * troposphere_sigma_m);
+
+    RangeObservation range;
+    range.point_in_ecef = prepared.satellite_in_ecef;
+    range.range_m = signal.pseudorange_m +
+                    kSpeedOfLight_mps * prepared.satellite.clock_bias_s - delay_m;
+    range.clock_group = prepared.clock_group;
+    SignalQuality quality;
+    quality.cn0_dbhz = status.cn0_dbhz;
+    quality.elevation_rad = look.elevation_rad;
+    quality.reported_sigma_m = signal.Has(kHasPseudorangeSigma) ? signal.pseudorange_sigma_m : 0.0;
+    quality.model_sigma_m = prepared.model_sigma_m;
+    quality.multipath_reported = (signal.flags & kMultipathDetected) != 0;
+    range.error = weights.ErrorModel(prepared.clock_group, quality);
+    status.sigma_m = range.error.sigma_m;
+
+    if (signal.Has(kHasDoppler)) {
+      RangeRateObservation rate;
+      rate.direction_in_ecef = (prepared.satellite_in_ecef - place_in_ecef).normalized();
+      const double wavelength_m = kSpeedOfLight_mps / signal.frequency_hz;
+      // The satellite's part of the rate moves over; the time of flight changes with the rate too.
+      const double satellite_rate_mps =
+          prepared.satellite_velocity_in_ecef.dot(rate.direction_in_ecef);
+      rate.rate_mps = -signal.doppler_hz * wavelength_m -
+                      satellite_rate_mps * (1.0 - satellite_rate_mps / kSpeedOfLight_mps) +
+                      kSpeedOfLight_mps * prepared.satellite.clock_drift_sps;
+      const double cn0_dbhz = status.cn0_dbhz > 0.0 ? status.cn0_dbhz : 40.0;
+      const double noise_mps = 0.1 * std::pow(10.0, (40.0 - cn0_dbhz) / 20.0);
+      rate.sigma_mps = std::hypot(0.05, noise_mps);
+      if (signal.Has(kHasRangeRateSigma)) {
+        rate.sigma_mps = std::max(rate.sigma_mps, signal.range_rate_sigma_mps);
+      }
+      rates_.push_back(rate);
+      rate_signals_.push_back(used_.size());
+    }
+    used_.push_back(prepared);
+    ranges_.push_back(range);
+  }
+}
+
+}  // namespace lodemark

@@ -1,0 +1,85 @@
+// One GNSS epoch on its way from receiver observations to fusion's observations.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/fusion/clock_biases.h"
+#include "core/fusion/observation.h"
+#include "core/gnss/ionosphere.h"
+#include "core/gnss/observation.h"
+#include "core/gnss/satellite_orbits.h"
+#include "core/session/range_weights.h"
+#include "core/session/session.h"
+
+namespace lodemark {
+
+// Numbers the clocks that a receiver's signals show: one per system and band.
+class ClockGroups {
+ public:
+  // The group of a signal, made if it is new; -1 once there are too many.
+  int Group(System system, char band);
+  int size() const { return count_; }
+  void Forget() { count_ = 0; }
+
+ private:
+  struct Key {
+    System system;
+    char band;
+  };
+  std::array<Key, kMaxClockGroups> keys_ = {};
+  int count_ = 0;
+};
+
+// A signal with what is known of its satellite.
+struct PreparedSignal {
+  std::size_t index = 0;  // into ObservationEpoch::signals
+  int clock_group = 0;
+  SatelliteState satellite;
+  Eigen::Vector3d satellite_in_ecef = Eigen::Vector3d::Zero();  // in the frame at reception
+  Eigen::Vector3d satellite_velocity_in_ecef = Eigen::Vector3d::Zero();  // likewise
+  double elevation_rad = 0.0;
+  double azimuth_rad = 0.0;
+  double atmosphere_m = 0.0;
+  double model_sigma_m = 0.0;
+};
+
+// Turns an epoch into ranges and range rates. Keeps its workspace.
+class GnssEpochModel {
+ public:
+  explicit GnssEpochModel(const SessionOptions& options) : options_(options) {}
+
+  // Finds orbits; signals that cannot be used get their verdict in *statuses (one per signal).
+  void FindSatellites(const ObservationEpoch& epoch, const SatelliteOrbits& orbits,
+                      std::vector<SatelliteStatus>* statuses);
+
+  // Ranges without atmosphere, for a first position from nothing.
+  const std::vector<RangeObservation>& CoarseRanges(const ObservationEpoch& epoch);
+
+  // Ranges and rates as seen from a place near the receiver. Signals that fall out (elevation,
+  // C/N0) get their verdict in *statuses.
+  void Model(const ObservationEpoch& epoch, const Eigen::Vector3d& place_in_ecef,
+             const IonosphereModel& ionosphere, const RangeWeights& weights,
+             std::vector<SatelliteStatus>* statuses);
+
+  const std::vector<PreparedSignal>& used_signals() const { return used_; }
+  const std::vector<RangeObservation>& ranges() const { return ranges_; }  // of used_signals
+  const std::vector<RangeRateObservation>& rates() const { return rates_; }
+  const std::vector<std::size_t>& rate_signals() const { return rate_signals_; }  // into used
+
+  void Forget() { groups_.Forget(); }
+
+ private:
+  SessionOptions options_;
+  ClockGroups groups_;
+  std::vector<PreparedSignal> prepared_;
+  std::vector<PreparedSignal> used_;
+  std::vector<RangeObservation> ranges_;
+  std::vector<RangeRateObservation> rates_;
+  std::vector<std::size_t> rate_signals_;
+};
+
+}  // namespace lodemark
