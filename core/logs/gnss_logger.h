@@ -64,25 +64,24 @@ struct LoggedAgc {
 // OrientationDeg, GameRotationVector, Pressure.
 struct LoggedSensor {
   enum class Kind : std::uint8_t {
-    kAcceleration,  // m/s^2
-    kTurnRate,      // rad/s
+    kAcceleration,   // m/s^2
+    kTurnRate,       // rad/s
     kMagneticField,  // microtesla
-    kOrientation,   // yaw, roll, pitch in degrees
-    kGameRotation,  // quaternion x y z w
-    kPressure,      // hPa
+    kOrientation,    // yaw, roll, pitch in degrees
+    kGameRotation,   // quaternion x y z w
+    kPressure,       // hPa
   };
   Kind kind = Kind::kAcceleration;
   std::int64_t elapsed_realtime_ns = 0;
   std::int64_t unix_time_ms = 0;
-  int count = 0;             // values in use
+  int count = 0;  // values in use
   double values[4] = {};
-  double biases[3] = {};     // uncalibrated kinds
+  double biases[3] = {};  // uncalibrated kinds
   bool uncalibrated = false;
 };
 
-using GnssLoggerRecord =
-    std::variant<AndroidEpoch, LoggedFix, LoggedStatus, LoggedNavigationMessage, LoggedAgc,
-                 LoggedSensor>;
+using GnssLoggerRecord = std::variant<AndroidEpoch, LoggedFix, LoggedStatus,
+                                      LoggedNavigationMessage, LoggedAgc, LoggedSensor>;
 
 // Groups Raw rows into epochs by TimeNanos; everything else comes in file order.
 class GnssLoggerReader {

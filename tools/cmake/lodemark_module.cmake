@@ -39,7 +39,8 @@ function(lodemark_module name)
 endfunction()
 
 # lodemark_unit_test(gnss SOURCES a_test.cc DEPENDS logs) makes the test program gnss_test of the
-# module and registers its cases with CTest.
+# module and registers its cases with CTest. Suites named Recorded... read real recordings, see
+# test/recordings.h, and carry the label recorded.
 function(lodemark_unit_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LINKS" ${ARGN})
   add_executable(${name}_test ${ARG_SOURCES})
@@ -48,5 +49,11 @@ function(lodemark_unit_test name)
   foreach(module IN LISTS ARG_DEPENDS)
     target_link_libraries(${name}_test PRIVATE lodemark_${module})
   endforeach()
-  gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 120)
+  target_compile_definitions(
+    ${name}_test PRIVATE LODEMARK_DATA_DEFAULT="${PROJECT_SOURCE_DIR}/../shared/data")
+  gtest_discover_tests(${name}_test TEST_PREFIX ${name}. TEST_FILTER -Recorded*
+                       DISCOVERY_TIMEOUT 120)
+  gtest_discover_tests(${name}_test TEST_PREFIX ${name}. TEST_FILTER Recorded*
+                       TEST_LIST ${name}_recorded_tests DISCOVERY_TIMEOUT 120
+                       PROPERTIES LABELS recorded)
 endfunction()
