@@ -135,16 +135,11 @@ typedef struct lodemark_range {
 /* Bits of lodemark_solve_options.present. */
 #define LODEMARK_SOLVE_HAS_START 0x1u
 
-/* Bits of lodemark_solve_options.flags. */
-#define LODEMARK_SOLVE_USE_ALL 0x1u /* every range counts fully, however badly it fits */
-
 /* All zero is a good choice. */
 typedef struct lodemark_solve_options {
   uint32_t struct_size;
   uint32_t present;
-  uint32_t flags;
-  uint32_t reserved;
-  double start_in_ecef_m[3]; /* HAS_START: where to begin; otherwise the solver finds out itself */
+  double start_in_ecef_m[3]; /* HAS_START: where to begin */
 } lodemark_solve_options;
 
 /* Why there is a position, or why not. */
@@ -154,6 +149,7 @@ typedef struct lodemark_solve_options {
 #define LODEMARK_OUTCOME_NO_EPHEMERIS 3 /* measurements, but no orbit for enough of them */
 #define LODEMARK_OUTCOME_NOT_CONVERGED 4
 #define LODEMARK_OUTCOME_INCONSISTENT 5 /* no subset that is large enough agrees */
+#define LODEMARK_OUTCOME_AMBIGUOUS 6    /* two places fit alike: a start would decide */
 
 /* A position, valid if outcome is LODEMARK_OUTCOME_FIX; otherwise all other numbers are zero. */
 typedef struct lodemark_solution {
@@ -187,8 +183,9 @@ typedef struct lodemark_range_residual {
 /*
  * Position from count ranges to known points, a clock per group included: three unknowns and one
  * more for each group. A group with a single range says nothing about the position, and that range
- * is not used. options may be NULL. residuals, unless NULL, has room for count elements, in the
- * order of the ranges.
+ * is not used. Ranges that contradict the others are found and not used either. Without a start,
+ * landmarks are taken to be near and satellites to be seen from near the ground. options may be
+ * NULL. residuals, unless NULL, has room for count elements, in the order of the ranges.
  *
  * LODEMARK_NO_POSITION if the ranges determine none; solution->outcome says why.
  */

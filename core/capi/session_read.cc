@@ -1,0 +1,193 @@
+// What a session has found out.
+#include <algorithm>
+#include <cstring>
+
+#include "core/base/units.h"
+#include "core/capi/guard.h"
+#include "core/capi/session_handle.h"
+#include "core/capi/structs.h"
+
+namespace lodemark {
+namespace {
+
+std::int32_t ToOutcome(EstimateStatus status) {
+  switch (status) {
+    case EstimateStatus::kFix:
+      return LODEMARK_OUTCOME_FIX;
+    case EstimateStatus::kNoData:
+      return LODEMARK_OUTCOME_NO_DATA;
+    case EstimateStatus::kTooFewSatellites:
+      return LODEMARK_OUTCOME_TOO_FEW;
+    case EstimateStatus::kNoEphemeris:
+      return LODEMARK_OUTCOME_NO_EPHEMERIS;
+    case EstimateStatus::kNotConverged:
+      return LODEMARK_OUTCOME_NOT_CONVERGED;
+    case EstimateStatus::kInconsistent:
+      break;
+  }
+  return LODEMARK_OUTCOME_INCONSISTENT;
+}
+
+static_assert(LODEMARK_VERDICT_USED == static_cast<int>(SatelliteVerdict::kUsed));
+static_assert(LODEMARK_VERDICT_DOWN_WEIGHTED == static_cast<int>(SatelliteVerdict::kDownWeighted));
+static_assert(LODEMARK_VERDICT_NO_EPHEMERIS == static_cast<int>(SatelliteVerdict::kNoEphemeris));
+static_assert(LODEMARK_VERDICT_EPHEMERIS_TOO_OLD ==
+              static_cast<int>(SatelliteVerdict::kEphemerisTooOld));
+static_assert(LODEMARK_VERDICT_UNHEALTHY == static_cast<int>(SatelliteVerdict::kUnhealthy));
+static_assert(LODEMARK_VERDICT_LOW_ELEVATION == static_cast<int>(SatelliteVerdict::kLowElevation));
+static_assert(LODEMARK_VERDICT_WEAK_SIGNAL == static_cast<int>(SatelliteVerdict::kWeakSignal));
+static_assert(LODEMARK_VERDICT_NOT_TRACKING == static_cast<int>(SatelliteVerdict::kNotTracking));
+static_assert(LODEMARK_VERDICT_TIME_AMBIGUOUS ==
+              static_cast<int>(SatelliteVerdict::kTimeAmbiguous));
+static_assert(LODEMARK_VERDICT_IMPLAUSIBLE == static_cast<int>(SatelliteVerdict::kImplausible));
+static_assert(LODEMARK_VERDICT_OUTLIER == static_cast<int>(SatelliteVerdict::kOutlier));
+static_assert(LODEMARK_VERDICT_SYSTEM_OFF == static_cast<int>(SatelliteVerdict::kSystemOff));
+static_assert(LODEMARK_VERDICT_UNKNOWN_SIGNAL ==
+              static_cast<int>(SatelliteVerdict::kUnknownSignal));
+static_assert(LODEMARK_VERDICT_UNOBSERVABLE == static_cast<int>(SatelliteVerdict::kUnobservable));
+
+static_assert(LODEMARK_EVENT_CLOCK_DISCONTINUITY ==
+              static_cast<int>(EventKind::kClockDiscontinuity));
+static_assert(LODEMARK_EVENT_MILLISECOND_JUMP == static_cast<int>(EventKind::kMillisecondJump));
+static_assert(LODEMARK_EVENT_TIME_BACKWARDS == static_cast<int>(EventKind::kTimeBackwards));
+static_assert(LODEMARK_EVENT_DUPLICATE_EPOCH == static_cast<int>(EventKind::kDuplicateEpoch));
+static_assert(LODEMARK_EVENT_FIRST_FIX == static_cast<int>(EventKind::kFirstFix));
+static_assert(LODEMARK_EVENT_FIX_LOST == static_cast<int>(EventKind::kFixLost));
+static_assert(LODEMARK_EVENT_EPHEMERIS_MISSING == static_cast<int>(EventKind::kEphemerisMissing));
+
+void Copy(const Eigen::Vector3d& from, double (&to)[3]) { std::memcpy(to, from.data(), sizeof to); }
+
+// A covariance is symmetric, so its columns are its rows.
+void Copy(const Eigen::Matrix3d& from, double (&to)[9]) { std::memcpy(to, from.data(), sizeof to); }
+
+lodemark_estimate ToC(const SessionEstimate& from) {
+  lodemark_estimate to = {};
+  to.outcome = ToOutcome(from.status);
+  to.satellites_used = from.satellites_used;
+  to.satellites_seen = from.satellites_seen;
+  to.time_ns = from.time_ns;
+  if (from.time_gps_ns != 0) {
+    to.present |= LODEMARK_ESTIMATE_HAS_GPS_TIME;
+    to.time_gps_ns = from.time_gps_ns;
+  }
+  if (from.status != EstimateStatus::kFix) return to;
+
+  to.present |= LODEMARK_ESTIMATE_HAS_POSITION;
+  to.sources = from.sources;
+  Copy(from.position_in_ecef, to.ecef_m);
+  to.latitude_deg = from.position.latitude_rad * kDegreesPerRadian;
+  to.longitude_deg = from.position.longitude_rad * kDegreesPerRadian;
+  to.height_m = from.position.height_m;
+  Copy(from.covariance_enu_m2, to.covariance_enu_m2);
+  to.accuracy_m = from.accuracy_m;
+  to.vertical_accuracy_m = from.vertical_accuracy_m;
+  to.clock_bias_m = from.clock_bias_m;
+  to.pdop = from.pdop;
+  to.hdop = from.hdop;
+  to.vdop = from.vdop;
+  to.tdop = from.tdop;
+  if (from.has_velocity) {
+    to.present |= LODEMARK_ESTIMATE_HAS_VELOCITY;
+    Copy(from.velocity_enu_mps, to.velocity_enu_mps);
+    Copy(from.velocity_covariance_enu_m2ps2, to.velocity_covariance_enu_m2ps2);
+    to.speed_accuracy_mps = from.speed_accuracy_mps;
+    to.clock_drift_mps = from.clock_drift_mps;
+  }
+  if (from.protection_level_m > 0.0) {
+    to.present |= LODEMARK_ESTIMATE_HAS_PROTECTION_LEVEL;
+    to.protection_level_m = from.protection_level_m;
+  }
+  if (from.vertical_protection_level_m > 0.0) {
+    to.present |= LODEMARK_ESTIMATE_HAS_VERTICAL_PROTECTION_LEVEL;
+    to.vertical_protection_level_m = from.vertical_protection_level_m;
+  }
+  return to;
+}
+
+lodemark_satellite ToC(const SatelliteStatus& from) {
+  lodemark_satellite to = {};
+  to.system = static_cast<std::int32_t>(from.satellite.system);
+  to.satellite = from.satellite.number;
+  to.verdict = static_cast<std::int32_t>(from.verdict);
+  to.signal[0] = from.signal.band;
+  if (from.signal.attribute != ' ') to.signal[1] = from.signal.attribute;
+  to.weight = from.weight;
+  if (from.has_residual) {
+    to.present |= LODEMARK_SATELLITE_HAS_RESIDUAL;
+    to.residual_m = from.residual_m;
+    to.sigma_m = from.sigma_m;
+  }
+  if (from.has_direction) {
+    to.present |= LODEMARK_SATELLITE_HAS_DIRECTION;
+    to.elevation_deg = from.elevation_rad * kDegreesPerRadian;
+    to.azimuth_deg = from.azimuth_rad * kDegreesPerRadian;
+  }
+  if (from.has_rate_residual) {
+    to.present |= LODEMARK_SATELLITE_HAS_RANGE_RATE_RESIDUAL;
+    to.range_rate_residual_mps = from.range_rate_residual_mps;
+  }
+  if (from.cn0_dbhz != 0.0) {
+    to.present |= LODEMARK_SATELLITE_HAS_CN0;
+    to.cn0_dbhz = from.cn0_dbhz;
+  }
+  return to;
+}
+
+lodemark_event ToC(const SessionEvent& from) {
+  lodemark_event to = {};
+  to.kind = static_cast<std::int32_t>(from.kind);
+  to.time_ns = from.time_ns;
+  to.time_gps_ns = from.time_gps_ns;
+  to.value = from.value;
+  CopyText(from.text.data(), from.text.size(), to.text, sizeof to.text);
+  return to;
+}
+
+}  // namespace
+}  // namespace lodemark
+
+lodemark_status lodemark_session_queued(const lodemark_session* session, int32_t* count) {
+  using namespace lodemark;
+  if (session == nullptr) return Fail(LODEMARK_ERROR_INVALID_ARGUMENT, "session is NULL");
+  if (count == nullptr) return Fail(LODEMARK_ERROR_INVALID_ARGUMENT, "count is NULL");
+  return Guard([&] {
+    *count = session->engine->queued();
+    return lodemark_status{LODEMARK_OK};
+  });
+}
+
+lodemark_status lodemark_session_estimate(const lodemark_session* session,
+                                          lodemark_estimate* estimate) {
+  using namespace lodemark;
+  if (session == nullptr) return Fail(LODEMARK_ERROR_INVALID_ARGUMENT, "session is NULL");
+  return Guard([&] {
+    const lodemark_status status = CheckStruct<lodemark_estimate>(estimate, {"estimate"});
+    if (status != LODEMARK_OK) return status;
+    const SessionEstimate& found = session->engine->estimate();
+    WriteStruct(ToC(found), estimate);
+    return found.status == EstimateStatus::kFix ? LODEMARK_OK : LODEMARK_NO_POSITION;
+  });
+}
+
+lodemark_status lodemark_session_satellites(const lodemark_session* session,
+                                            lodemark_satellite* out, int32_t capacity,
+                                            int32_t* count) {
+  using namespace lodemark;
+  if (session == nullptr) return Fail(LODEMARK_ERROR_INVALID_ARGUMENT, "session is NULL");
+  return Guard([&] {
+    const std::span<const SatelliteStatus> satellites = session->engine->satellites();
+    return WriteList<lodemark_satellite>(
+        satellites.size(), [&](std::size_t i) { return ToC(satellites[i]); }, out, capacity, count);
+  });
+}
+
+lodemark_status lodemark_session_events(const lodemark_session* session, lodemark_event* out,
+                                        int32_t capacity, int32_t* count) {
+  using namespace lodemark;
+  if (session == nullptr) return Fail(LODEMARK_ERROR_INVALID_ARGUMENT, "session is NULL");
+  return Guard([&] {
+    const std::span<const SessionEvent> events = session->engine->events();
+    return WriteList<lodemark_event>(
+        events.size(), [&](std::size_t i) { return ToC(events[i]); }, out, capacity, count);
+  });
+}
