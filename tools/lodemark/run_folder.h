@@ -1,0 +1,76 @@
+// What `lodemark replay` left in a run folder (docs/formats.md), read back.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/logs/read_report.h"
+
+namespace lodemark {
+
+// One row of trajectory.csv.
+struct RunEpoch {
+  std::int64_t time_gps_ns = 0;
+  bool answered = false;  // there is a position
+  double latitude_deg = 0.0;
+  double longitude_deg = 0.0;
+  double height_m = 0.0;
+  std::optional<std::array<double, 3>> velocity_enu_mps;
+  std::optional<double> accuracy_m;
+  std::optional<double> vertical_accuracy_m;
+  std::optional<double> speed_accuracy_mps;
+  std::optional<double> protection_level_m;
+  std::optional<double> vertical_protection_level_m;
+  // East-east, east-north, north-north.
+  std::optional<std::array<double, 3>> horizontal_covariance_m2;
+  std::optional<double> up_variance_m2;
+  std::optional<int> satellites_used;
+  std::string status;
+};
+
+// One line of events.jsonl.
+struct RunEvent {
+  std::int64_t time_gps_ns = 0;
+  std::string event;
+  std::string text;
+};
+
+// One row of satellites.csv; the texts are valid until the next row.
+struct RunSignal {
+  std::int64_t time_gps_ns = 0;
+  std::string_view satellite;
+  std::string_view signal;
+  bool used = false;
+  std::string_view reason;
+  std::optional<double> residual_m;
+  std::optional<double> elevation_deg;
+  std::optional<double> azimuth_deg;
+  std::optional<double> cn0_dbhz;
+};
+
+struct RunFolder {
+  std::string path;
+  std::string name;              // the folder's own name
+  std::vector<RunEpoch> epochs;  // in file order
+  ReadReport trajectory_report;
+};
+
+// Fails if there is no folder, no trajectory.csv in it, or not one readable row.
+Result<RunFolder> ReadRunFolder(const std::string& path);
+
+// Names that tell the runs apart: the folder's own, or the whole path where two agree.
+std::vector<std::string> RunNames(const std::vector<std::string>& paths);
+
+// The events, none if the run has no such file. Malformed lines are counted and skipped.
+Result<std::vector<RunEvent>> ReadRunEvents(const std::string& folder, ReadReport* report);
+
+// Calls sink for every row of satellites.csv; nothing happens if the run has no such file.
+Status ReadRunSignals(const std::string& folder, const std::function<void(const RunSignal&)>& sink,
+                      ReadReport* report);
+
+}  // namespace lodemark

@@ -1,0 +1,13 @@
+// The subcommands. Each Add function declares its options and, when the user chose it, runs the
+// command and leaves the exit code behind.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace lodemark {
+
+void AddCompareCommand(CLI::App& app, int* exit_code);
+
+}  // namespace lodemark
