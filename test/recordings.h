@@ -1,9 +1,13 @@
-// Where the real recordings are that some tests read in place.
+// Where the real recordings are that some tests read in place. They are never part of the project;
+// a test whose recording is absent is skipped, visibly.
 #pragma once
+
+#include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <system_error>
 
 namespace lodemark::test {
 
@@ -20,6 +24,6 @@ inline bool HasRecording(const std::string& name) {
 
 }  // namespace lodemark::test
 
-// At the head of a test: skips it, visibly, where the recording is absent.
+// At the head of a test. name is relative to the folder: "gnss/s8_perth_20171005".
 #define LODEMARK_NEEDS_RECORDING(name) \
   if (!::lodemark::test::HasRecording(name)) GTEST_SKIP() << "no recording " << (name)

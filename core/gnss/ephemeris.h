@@ -111,6 +111,7 @@ struct KlobucharParameters {
   System system = System::kGps;
   std::array<double, 4> alpha = {};  // s, s/semicircle, ...
   std::array<double, 4> beta = {};
+  std::int32_t region = 0;  // QZSS: 0 for its whole area, 1 for Japan only
 };
 
 // Galileo's effective ionisation coefficients, for NeQuick-G and NTCM-G.

@@ -14,7 +14,8 @@ namespace lodemark {
 // Calls sink for every record of the file in order, header parameters (ionosphere, time offsets,
 // leap seconds) first. Malformed records are counted in *report and skipped. Fails only if the file
 // cannot be read or is no RINEX navigation file.
-Status ReadRinexNavigation(LineReader* lines, const std::function<void(const NavigationRecord&)>& sink,
+Status ReadRinexNavigation(LineReader* lines,
+                           const std::function<void(const NavigationRecord&)>& sink,
                            ReadReport* report);
 Status ReadRinexNavigation(const std::string& path,
                            const std::function<void(const NavigationRecord&)>& sink,
