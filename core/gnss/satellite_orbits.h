@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
@@ -44,16 +45,25 @@ class SatelliteOrbits {
   SatelliteOrbits(SatelliteOrbits&&) noexcept;
   SatelliteOrbits& operator=(SatelliteOrbits&&) noexcept;
 
-  // Keeps the set unless the same one (satellite, type, issue, times) is already here.
-  void Add(const KeplerEphemeris& ephemeris);
-  void Add(const StateEphemeris& ephemeris);
-  // Precise orbits come first wherever they cover the time asked for.
+  // Keeps the set unless the same one (satellite, type, issue, times, health) is already here or
+  // it is implausible. Says whether it is kept. A satellite has room for kMostSets of either kind;
+  // then the one sent first goes.
+  static constexpr std::size_t kMostSets = 600;
+  bool Add(const KeplerEphemeris& ephemeris);
+  bool Add(const StateEphemeris& ephemeris);
+  // Precise orbits come first wherever they cover the time asked for. A satellite has room for
+  // kMostSamples, and then loses the oldest. Positions stay those of the centre of mass.
+  static constexpr std::size_t kMostSamples = 20'000;
   void Add(const PreciseOrbits& orbits);
 
-  // State at transmission of a signal received at time_gps_ns with the given pseudorange, whose
-  // receiver clock error is receiver_clock_s: solves for the time of transmission. Of several
-  // broadcast sets the newest already transmitted that is valid is taken; a set from the future
-  // only where none from the past is near enough.
+  // State at transmission of a signal received at time_gps_ns with the given pseudorange by a
+  // receiver whose clock was ahead by receiver_clock_s: solves for the time of transmission. Since
+  // the pseudorange carries the receiver's clock error, the receiver's own reading with a
+  // receiver_clock_s of zero means the same.
+  //
+  // Of several broadcast sets the newest already transmitted that is valid is taken; a set from the
+  // future only where none from the past is near enough. kUnhealthy if that set says so, precise
+  // orbits or not. *state is written only with kGood.
   OrbitVerdict AtTransmission(SatelliteId satellite, SignalCode signal, std::int64_t time_gps_ns,
                               double pseudorange_m, double receiver_clock_s,
                               SatelliteState* state) const;
