@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/geo/time.h"
 #include "core/gnss/observation.h"
 #include "core/logs/line_reader.h"
 #include "core/logs/read_report.h"
