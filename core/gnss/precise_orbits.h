@@ -17,6 +17,7 @@ struct PreciseSample {
   double clock_bias_s = 0.0;
   double position_sigma_m = 0.0;  // 0 if unknown
   bool has_clock = false;
+  bool clock_event = false;  // the clock jumped since the sample before
   bool maneuver = false;
   bool predicted = false;
 };

@@ -1,4 +1,4 @@
-// SP3-c and SP3-d precise orbit files.
+// SP3-a, SP3-c and SP3-d precise orbit files.
 #pragma once
 
 #include <string>
@@ -10,6 +10,9 @@
 
 namespace lodemark {
 
+// Positions and clocks of every satellite that SatelliteId can name; velocities and correlations
+// are passed over. Malformed rows are counted in *report and skipped. Fails if the file cannot be
+// read or is no SP3 file.
 Result<PreciseOrbits> ReadSp3(LineReader* lines, ReadReport* report);
 Result<PreciseOrbits> ReadSp3(const std::string& path, ReadReport* report);
 

@@ -9,6 +9,5 @@ class App;
 namespace lodemark {
 
 void AddCompareCommand(CLI::App& app, int* exit_code);
-void AddReportCommand(CLI::App& app, int* exit_code);
 
 }  // namespace lodemark
