@@ -194,6 +194,7 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
     verdict.residual_m = problem.Residual(row);
     const RangeErrorTerms terms = EvaluateRangeError(row.error, verdict.residual_m);
     verdict.weight = terms.core_share;
+    verdict.late_share = terms.late_share;
     verdict.used = verdict.weight >= 0.5;
     verdict.observable = row.clock <= 0 || problem.members(row.clock) > 1 ||
                          problem.prior_sigma_m(row.clock) <= kUnknownBias_m;

@@ -34,7 +34,8 @@ struct PointOptions {
 
 struct ObservationVerdict {
   double residual_m = 0.0;
-  double weight = 0.0;  // probability that the error is ordinary noise, relative to a clean one
+  double weight = 0.0;      // probability that the error is ordinary noise
+  double late_share = 0.0;  // probability that it is a reflection
   bool used = false;    // weight at least a half
   bool observable = true;  // false: the only one of a clock group nobody knows
 };

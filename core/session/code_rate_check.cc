@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "core/base/units.h"
 
@@ -13,6 +14,8 @@ constexpr double kLongestGap_s = 1.5;
 
 constexpr double kUnknown = 1e99;
 
+const int kLongestMemory = getenv("PMEM")?atoi(getenv("PMEM")):5;
+
 }  // namespace
 
 const std::vector<double>& CodeRateCheck::Update(const ObservationEpoch& epoch) {
@@ -20,7 +23,7 @@ const std::vector<double>& CodeRateCheck::Update(const ObservationEpoch& epoch) 
   present_.clear();
   for (std::size_t i = 0; i < epoch.signals.size(); ++i) {
     const SignalObservation& signal = epoch.signals[i];
-    if (!signal.Has(kHasPseudorange | kHasDoppler)) continue;
+    if (!signal.Has(kHasPseudorange | kHasDoppler) || !(signal.frequency_hz > 0.0)) continue;
     Past now;
     now.satellite = signal.satellite;
     now.signal = signal.signal;
@@ -37,8 +40,6 @@ const std::vector<double>& CodeRateCheck::Update(const ObservationEpoch& epoch) 
     disagreement_m_[i] = now.pseudorange_m - before->pseudorange_m -
                          0.5 * (now.rate_mps + before->rate_mps) * gap_s;
   }
-  std::swap(past_, present_);
-
   // What the signals of a band share is the receiver's clock.
   for (std::size_t i = 0; i < epoch.signals.size(); ++i) {
     const SignalObservation& of = epoch.signals[i];
@@ -73,6 +74,22 @@ const std::vector<double>& CodeRateCheck::Update(const ObservationEpoch& epoch) 
       }
     }
   }
+  // Follow each range slowly, so that one odd epoch does not make the next look odd.
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < epoch.signals.size(); ++i) {
+    if (next == present_.size()) break;
+    Past& now = present_[next];
+    const SignalObservation& signal = epoch.signals[i];
+    if (now.satellite != signal.satellite || now.signal != signal.signal) continue;
+    ++next;
+    if (disagreement_m_[i] == kUnknown) continue;
+    const auto before = std::find_if(past_.begin(), past_.end(), [&](const Past& past) {
+      return past.satellite == now.satellite && past.signal == now.signal;
+    });
+    now.count = std::min(before->count + 1, kLongestMemory);
+    now.pseudorange_m -= disagreement_m_[i] * (1.0 - 1.0 / now.count);
+  }
+  std::swap(past_, present_);
   for (double& value : disagreement_m_) {
     if (value == kUnknown) value = 0.0;
   }

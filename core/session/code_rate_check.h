@@ -26,6 +26,7 @@ class CodeRateCheck {
     std::int64_t time_gps_ns = 0;
     double pseudorange_m = 0.0;
     double rate_mps = 0.0;
+    int count = 1;
   };
 
   std::vector<Past> past_;

@@ -88,12 +88,30 @@ void GnssEpochModel::FindSatellites(const ObservationEpoch& epoch, const Satelli
       status.verdict = VerdictOf(verdict);
       continue;
     }
+    // Old files do not say which FDMA channel a GLONASS slot uses; its ephemeris does.
+    prepared.frequency_hz =
+        signal.frequency_hz > 0.0
+            ? signal.frequency_hz
+            : CarrierFrequency(signal.satellite.system, signal.signal.band,
+                               prepared.satellite.glonass_channel)
+                  .value_or(0.0);
+    if (!(prepared.frequency_hz > 0.0)) {
+      status.verdict = SatelliteVerdict::kUnknownSignal;
+      continue;
+    }
     prepared.clock_group = groups_.Group(signal.satellite.system, signal.signal.band);
     if (prepared.clock_group < 0) {
       status.verdict = SatelliteVerdict::kUnknownSignal;
       continue;
     }
     prepared_.push_back(prepared);
+  }
+}
+
+void GnssEpochModel::NoteStrengths(const ObservationEpoch& epoch, RangeWeights* weights) const {
+  for (const PreparedSignal& prepared : prepared_) {
+    const SignalObservation& signal = epoch.signals[prepared.index];
+    if (signal.Has(kHasCn0)) weights->NoteStrength(prepared.clock_group, signal.cn0_dbhz);
   }
 }
 
@@ -116,6 +134,7 @@ const std::vector<RangeObservation>& GnssEpochModel::CoarseRanges(const Observat
 
 void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d& place_in_ecef,
                            const IonosphereModel& ionosphere, const RangeWeights& weights,
+                           const std::vector<double>& rate_disagreements_m,
                            std::vector<SatelliteStatus>* statuses) {
   used_.clear();
   ranges_.clear();
@@ -168,7 +187,7 @@ void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d&
           break;
       }
       delay_m += ionosphere.Delay(place, place_in_ecef, prepared.satellite_in_ecef, look,
-                                  epoch.time_gps_ns, signal.frequency_hz, &ionosphere_sigma_m, kind);
+                                  epoch.time_gps_ns, prepared.frequency_hz, &ionosphere_sigma_m, kind);
     }
     if (options_.troposphere != TroposphereChoice::kNone) {
       delay_m += TroposphereDelay(place, look.elevation_rad, epoch.time_gps_ns,
@@ -190,6 +209,8 @@ void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d&
     quality.elevation_rad = look.elevation_rad;
     quality.reported_sigma_m = signal.Has(kHasPseudorangeSigma) ? signal.pseudorange_sigma_m : 0.0;
     quality.model_sigma_m = prepared.model_sigma_m;
+    quality.rate_disagreement_m = rate_disagreements_m[prepared.index];
+    quality.wideband = signal.signal.band == '5' || signal.signal.band == '7' || signal.signal.band == '8';
     quality.multipath_reported = (signal.flags & kMultipathDetected) != 0;
     range.error = weights.ErrorModel(prepared.clock_group, quality);
     status.sigma_m = range.error.sigma_m;
@@ -197,7 +218,7 @@ void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d&
     if (signal.Has(kHasDoppler)) {
       RangeRateObservation rate;
       rate.direction_in_ecef = (prepared.satellite_in_ecef - place_in_ecef).normalized();
-      const double wavelength_m = kSpeedOfLight_mps / signal.frequency_hz;
+      const double wavelength_m = kSpeedOfLight_mps / prepared.frequency_hz;
       // The satellite's part of the rate moves over; the time of flight changes with the rate too.
       const double satellite_rate_mps =
           prepared.satellite_velocity_in_ecef.dot(rate.direction_in_ecef);

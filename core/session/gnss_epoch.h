@@ -12,6 +12,7 @@
 #include "core/gnss/ionosphere.h"
 #include "core/gnss/observation.h"
 #include "core/gnss/satellite_orbits.h"
+#include "core/session/code_rate_check.h"
 #include "core/session/range_weights.h"
 #include "core/session/session.h"
 
@@ -38,6 +39,7 @@ class ClockGroups {
 struct PreparedSignal {
   std::size_t index = 0;  // into ObservationEpoch::signals
   int clock_group = 0;
+  double frequency_hz = 0.0;  // carrier
   SatelliteState satellite;
   Eigen::Vector3d satellite_in_ecef = Eigen::Vector3d::Zero();  // in the frame at reception
   Eigen::Vector3d satellite_velocity_in_ecef = Eigen::Vector3d::Zero();  // likewise
@@ -56,6 +58,9 @@ class GnssEpochModel {
   void FindSatellites(const ObservationEpoch& epoch, const SatelliteOrbits& orbits,
                       std::vector<SatelliteStatus>* statuses);
 
+  // Tells the weights how strong the signals of this epoch are.
+  void NoteStrengths(const ObservationEpoch& epoch, RangeWeights* weights) const;
+
   // Ranges without atmosphere, for a first position from nothing.
   const std::vector<RangeObservation>& CoarseRanges(const ObservationEpoch& epoch);
 
@@ -63,6 +68,7 @@ class GnssEpochModel {
   // C/N0) get their verdict in *statuses.
   void Model(const ObservationEpoch& epoch, const Eigen::Vector3d& place_in_ecef,
              const IonosphereModel& ionosphere, const RangeWeights& weights,
+             const std::vector<double>& rate_disagreements_m,
              std::vector<SatelliteStatus>* statuses);
 
   const std::vector<PreparedSignal>& used_signals() const { return used_; }

@@ -2,39 +2,62 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace lodemark {
+namespace {
+double P(const char* n, double d) { const char* e = std::getenv(n); return e ? std::atof(e) : d; }
+struct Pars {
+  double a = P("PA", 2.0), b = P("PB", 1.9), e0 = P("PE0", 0.8), prior = P("PPRIOR", 100),
+         mid = P("PMID", 18), width = P("PWIDTH", 4), l0 = P("PL0", 3), l1 = P("PL1", 1.8), lmax = P("PLMAX", 60),
+         kprior = P("PKPRIOR", 5), emin = P("PEMIN", 0.01), emax = P("PEMAX", 0.9), forget = P("PFORGET", 0.995), ks=P("PKS",0.99),
+         ref0 = P("PREF0", 40), dis = P("PDIS", 0.0), wide = P("PWIDE", 0.5);
+} pars;
+}  // namespace
+
+void RangeWeights::NoteStrength(int clock_group, double cn0_dbhz) {
+  Group& group = groups_[static_cast<std::size_t>(clock_group)];
+  group.strongest_dbhz = std::max(group.strongest_dbhz, cn0_dbhz);
+}
 
 RangeErrorModel RangeWeights::ErrorModel(int clock_group, const SignalQuality& quality) const {
+  const Group& group = groups_[static_cast<std::size_t>(clock_group)];
   const double cn0_dbhz = quality.cn0_dbhz > 0.0 ? quality.cn0_dbhz : 40.0;
   const double sine = std::max(std::sin(quality.elevation_rad), 0.1);
-  const double noise_m = 3.0 * std::pow(10.0, (40.0 - cn0_dbhz) / 20.0);
-  const double noise_variance = (1.0 + noise_m * noise_m) * (0.7 + 0.3 / (sine * sine));
-  const Scale& scale = scales_[static_cast<std::size_t>(clock_group)];
-  constexpr double kPriorCount = 30.0;
-  const double factor = (kPriorCount + scale.squares) / (kPriorCount + scale.count);
+  const double noise_m = pars.b * std::pow(10.0, (40.0 - cn0_dbhz) / 20.0);
+  const double wide = quality.wideband ? pars.wide : 1.0;
+  const double noise_variance = wide * wide * (pars.a * pars.a + noise_m * noise_m) * (pars.e0 + (1 - pars.e0) / (sine * sine));
+  const double factor = (pars.prior + group.squares) / (pars.prior + group.count);
   RangeErrorModel model;
-  model.sigma_m = std::sqrt(factor * noise_variance + quality.model_sigma_m * quality.model_sigma_m);
-  model.late_probability = std::clamp(0.05 + 0.02 * (45.0 - cn0_dbhz), 0.03, 0.6);
-  if (quality.multipath_reported) model.late_probability = std::min(0.8, model.late_probability + 0.2);
-  model.late_scale_m = 30.0;
+  model.sigma_m = std::sqrt(factor * noise_variance + quality.model_sigma_m * quality.model_sigma_m + pars.dis * quality.rate_disagreement_m * quality.rate_disagreement_m);
+  const double deficit = std::max(0.0, std::max(group.strongest_dbhz, pars.ref0) - cn0_dbhz);
+  const double odds = std::exp((deficit - pars.mid) / pars.width) * (pars.kprior + late_found_) / (pars.kprior + late_expected_);
+  model.late_probability = std::clamp(odds / (1.0 + odds), pars.emin, pars.emax);
+  model.late_scale_m = std::clamp(pars.l0 + pars.l1 * deficit, 8.0, pars.lmax);
   return model;
 }
 
-void RangeWeights::Learn(int clock_group, const RangeErrorModel& model, double model_sigma_m,
-                         double residual_m, double redundancy_share, double core_share) {
-  Scale& scale = scales_[static_cast<std::size_t>(clock_group)];
-  constexpr double kForget = 0.999;
-  const double present = std::max(0.01, 1.0);
-  static_cast<void>(present);
-  static_cast<void>(model_sigma_m);
+void RangeWeights::Learn(int clock_group, const RangeErrorModel& model, double residual_m,
+                         double redundancy_share, double core_share, double late_share) {
+  Group& group = groups_[static_cast<std::size_t>(clock_group)];
   const double u = residual_m / model.sigma_m;
-  constexpr double kPriorCount = 30.0;
-  const double factor = (kPriorCount + scale.squares) / (kPriorCount + scale.count);
-  scale.squares = kForget * scale.squares + core_share * u * u * factor;
-  scale.count = kForget * scale.count + core_share * redundancy_share;
+  const double factor = (pars.prior + group.squares) / (pars.prior + group.count);
+  group.squares += core_share * u * u * factor;
+  group.count += core_share * redundancy_share;
+  late_found_ += late_share;
+  late_expected_ += model.late_probability;
 }
 
-void RangeWeights::Forget() { scales_ = {}; }
+void RangeWeights::FinishEpoch() {
+  for (Group& group : groups_) {
+    group.squares *= pars.forget;
+    group.count *= pars.forget;
+    group.strongest_dbhz = std::max(0.0, group.strongest_dbhz - 0.02);
+  }
+  late_found_ *= pars.ks;
+  late_expected_ *= pars.ks;
+}
+
+void RangeWeights::Forget() { *this = RangeWeights(); }
 
 }  // namespace lodemark

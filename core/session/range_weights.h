@@ -1,5 +1,5 @@
-// How much each code range is trusted: noise by C/N0 and elevation, the chance of a reflection, and
-// a scale per signal learned from past epochs.
+// How much each code range is trusted: noise by C/N0 and elevation, the chance of a reflection by
+// how much weaker a signal is than the strongest, and what past epochs taught about both.
 #pragma once
 
 #include <array>
@@ -12,28 +12,39 @@ namespace lodemark {
 
 // What is known of one signal at one epoch.
 struct SignalQuality {
-  double cn0_dbhz = 0.0;        // 0 if unknown
+  double cn0_dbhz = 0.0;          // 0 if unknown
   double elevation_rad = 0.0;
   double reported_sigma_m = 0.0;  // 0 if unknown
-  double model_sigma_m = 0.0;   // of orbit, clock and atmosphere
+  double model_sigma_m = 0.0;     // of orbit, clock and atmosphere
+  double rate_disagreement_m = 0.0;  // code against Doppler, 0 if unknown
+  bool wideband = false;  // a code of ten times the C/A rate
   bool multipath_reported = false;
 };
 
 class RangeWeights {
  public:
+  // To be called with every signal of an epoch before ErrorModel is asked.
+  void NoteStrength(int clock_group, double cn0_dbhz);
+
   RangeErrorModel ErrorModel(int clock_group, const SignalQuality& quality) const;
 
-  // Learns from an adjusted epoch: residual, its share of the redundancy and its weight.
-  void Learn(int clock_group, const RangeErrorModel& model, double model_sigma_m,
-             double residual_m, double redundancy_share, double core_share);
+  // Learns from one range of an adjusted epoch. redundancy_share: expected square of a normalised
+  // residual; core_share and late_share: the posterior over the error model.
+  void Learn(int clock_group, const RangeErrorModel& model, double residual_m,
+             double redundancy_share, double core_share, double late_share);
+  // To be called once after the ranges of an epoch were learned.
+  void FinishEpoch();
   void Forget();
 
  private:
-  struct Scale {
+  struct Group {
+    double strongest_dbhz = 0.0;
     double squares = 0.0;
     double count = 0.0;
   };
-  std::array<Scale, kMaxClockGroups> scales_ = {};
+  std::array<Group, kMaxClockGroups> groups_ = {};
+  double late_found_ = 0.0;     // posterior number of reflections
+  double late_expected_ = 0.0;  // what the prior had expected
 };
 
 }  // namespace lodemark

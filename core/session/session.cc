@@ -73,6 +73,7 @@ struct Session::Impl {
 
   GnssEpochModel model;
   RangeWeights weights;
+  CodeRateCheck code_rate;
   ClockBiases biases;
   PointAdjustment adjustment;
   PointEstimate point;
@@ -170,6 +171,8 @@ void Session::Impl::Process(const QueuedEpoch& queued) {
 
 void Session::Impl::Solve(const ObservationEpoch& epoch) {
   model.FindSatellites(epoch, orbits, &statuses);
+  model.NoteStrengths(epoch, &weights);
+  const std::vector<double>& disagreements_m = code_rate.Update(epoch);
   std::optional<Eigen::Vector3d> place = last_place_in_ecef;
   if (!place) place = CoarsePosition(model.CoarseRanges(epoch));
   if (!place) {
@@ -178,7 +181,7 @@ void Session::Impl::Solve(const ObservationEpoch& epoch) {
   }
   PointStatus status = PointStatus::kTooFew;
   for (int pass = 0; pass < 3; ++pass) {
-    model.Model(epoch, *place, ionosphere, weights, &statuses);
+    model.Model(epoch, *place, ionosphere, weights, disagreements_m, &statuses);
     PointOptions point_options;
     status = adjustment.Solve(model.ranges(), *place, biases, point_options, &point, &verdicts);
     if (status != PointStatus::kGood) break;
@@ -247,9 +250,10 @@ void Session::Impl::Learn() {
                        static_cast<double>(model.used_signals().size());
   for (std::size_t i = 0; i < model.used_signals().size(); ++i) {
     const PreparedSignal& prepared = model.used_signals()[i];
-    weights.Learn(prepared.clock_group, model.ranges()[i].error, prepared.model_sigma_m,
-                  verdicts[i].residual_m, share, verdicts[i].weight);
+    weights.Learn(prepared.clock_group, model.ranges()[i].error, verdicts[i].residual_m, share,
+                  verdicts[i].weight, verdicts[i].late_share);
   }
+  weights.FinishEpoch();
 }
 
 std::int32_t Session::queued() const { return static_cast<std::int32_t>(impl_->count); }
@@ -265,6 +269,7 @@ void Session::Reset() {
   s.count = 0;
   s.model.Forget();
   s.weights.Forget();
+  s.code_rate.Forget();
   s.biases.Forget();
   s.last_place_in_ecef.reset();
   s.last_gps_ns = 0;
