@@ -13,6 +13,11 @@ namespace fs = std::filesystem;
 
 constexpr double kLargestHeight_m = 1e8;  // beyond any orbit we could be asked about
 
+// Beyond year 2106; bounds keep differences of times from overflowing.
+constexpr std::int64_t kLatestTime_ns = 4'000'000'000'000'000'000;
+
+bool IsTime(std::int64_t time_gps_ns) { return time_gps_ns >= 0 && time_gps_ns < kLatestTime_ns; }
+
 struct TrajectoryColumns {
   explicit TrajectoryColumns(const CsvTable& table)
       : time(table.Column("time_gps_ns")),
@@ -58,8 +63,8 @@ std::optional<double> NotNegative(std::optional<double> value) {
 bool ReadEpoch(CsvTable* table, const TrajectoryColumns& at, RunEpoch* epoch) {
   *epoch = {};
   const std::optional<std::int64_t> time_ns = table->Integer(at.time);
-  if (!time_ns) {
-    table->Skip(at.time, "time_gps_ns is not an integer");
+  if (!time_ns || !IsTime(*time_ns)) {
+    table->Skip(at.time, "time_gps_ns is no time in nanoseconds");
     return false;
   }
   epoch->time_gps_ns = *time_ns;
@@ -176,7 +181,8 @@ Result<std::vector<RunEvent>> ReadRunEvents(const std::string& folder, ReadRepor
     if (line.empty()) continue;
     const nlohmann::json object = nlohmann::json::parse(line, nullptr, false);
     const auto time = object.is_object() ? object.find("time_gps_ns") : object.end();
-    if (!object.is_object() || time == object.end() || !time->is_number_integer()) {
+    if (!object.is_object() || time == object.end() || !time->is_number_integer() ||
+        !IsTime(time->get<std::int64_t>())) {
       report->Skip(lines->line_number(), 0, "no JSON object with an integer time_gps_ns");
       continue;
     }
@@ -216,8 +222,8 @@ Status ReadRunSignals(const std::string& folder, const std::function<void(const 
   RunSignal row;
   while (table->Next()) {
     const std::optional<std::int64_t> time_ns = table->Integer(time);
-    if (!time_ns) {
-      table->Skip(time, "time_gps_ns is not an integer");
+    if (!time_ns || !IsTime(*time_ns)) {
+      table->Skip(time, "time_gps_ns is no time in nanoseconds");
       continue;
     }
     row.time_gps_ns = *time_ns;

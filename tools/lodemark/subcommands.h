@@ -9,5 +9,6 @@ class App;
 namespace lodemark {
 
 void AddCompareCommand(CLI::App& app, int* exit_code);
+void AddReportCommand(CLI::App& app, int* exit_code);
 
 }  // namespace lodemark

@@ -14,16 +14,18 @@ class TextTable {
   // As many values as there are columns; an empty one is printed as a dash.
   void AddRow(std::string label, std::vector<std::string> values, std::string unit = "");
 
-  // decorate: bold headings by terminal escapes.
-  std::string Text(bool decorate) const;
-
- private:
   struct Row {
     bool section = false;
     std::string label;
     std::vector<std::string> values;
     std::string unit;
   };
+  const std::vector<Row>& rows() const { return rows_; }
+
+  // decorate: bold headings by terminal escapes.
+  std::string Text(bool decorate) const;
+
+ private:
   std::vector<std::string> columns_;
   std::vector<Row> rows_;
 };

@@ -82,8 +82,8 @@ Result<TruthTrack> TruthTrack::Read(const std::string& path) {
     const std::optional<std::int64_t> time_ns = table->Integer(time);
     const std::optional<double> latitude_deg = table->Number(latitude);
     const std::optional<double> longitude_deg = table->Number(longitude);
-    if (!time_ns) {
-      table->Skip(time, "time_gps_ns is not an integer");
+    if (!time_ns || *time_ns < 0) {
+      table->Skip(time, "time_gps_ns is no time in nanoseconds");
     } else if (!latitude_deg || std::abs(*latitude_deg) > 90.0) {
       table->Skip(latitude, "latitude_deg is no latitude");
     } else if (!longitude_deg || std::abs(*longitude_deg) > 360.0) {

@@ -1,0 +1,333 @@
+#include "tools/lodemark/report_content.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/base/units.h"
+#include "core/geo/geodetic.h"
+#include "tools/lodemark/command.h"
+#include "tools/lodemark/compare_table.h"
+#include "tools/lodemark/progress_bar.h"
+#include "tools/lodemark/report_signals.h"
+#include "tools/lodemark/run_errors.h"
+#include "tools/lodemark/run_folder.h"
+
+namespace lodemark {
+namespace {
+
+constexpr std::size_t kDrawnEpochs = 3000;
+constexpr std::size_t kDrawnTruth = 3000;
+constexpr std::size_t kSlices = 360;
+constexpr std::size_t kQuantiles = 200;
+constexpr std::size_t kListedEvents = 500;
+
+Geodetic PlaceOf(double latitude_deg, double longitude_deg, double height_m) {
+  return {latitude_deg * kRadiansPerDegree, longitude_deg * kRadiansPerDegree, height_m};
+}
+
+double SecondsSince(std::int64_t start_ns, std::int64_t time_ns) {
+  return 1e-9 * static_cast<double>(time_ns - start_ns);
+}
+
+// The 68 % ellipse of a horizontal covariance (ee, en, nn): its one-sigma axes, grown to hold 68 %.
+std::optional<ReportEllipse> EllipseOf(const std::array<double, 3>& covariance_m2) {
+  const auto [ee, en, nn] = covariance_m2;
+  const double middle = 0.5 * (ee + nn);
+  const double radius = std::hypot(0.5 * (ee - nn), en);
+  if (!(ee > 0.0 && nn > 0.0 && middle > radius)) return std::nullopt;
+  const double growth = std::sqrt(-2.0 * std::log(1.0 - 0.68));
+  ReportEllipse ellipse;
+  ellipse.semi_major_m = growth * std::sqrt(middle + radius);
+  ellipse.semi_minor_m = growth * std::sqrt(middle - radius);
+  ellipse.azimuth_deg = 0.5 * std::atan2(2.0 * en, nn - ee) * kDegreesPerRadian;
+  return ellipse;
+}
+
+// Where the page's local frame lies: the static truth, or the median estimate of the first run.
+std::optional<Geodetic> OriginOf(const std::vector<RunFolder>& runs,
+                                 const std::optional<TruthTrack>& truth) {
+  if (truth && truth->is_static()) {
+    const TruthPoint& point = truth->points().front();
+    return PlaceOf(point.latitude_deg, point.longitude_deg, point.height_m.value_or(0.0));
+  }
+  for (const RunFolder& run : runs) {
+    std::vector<double> latitudes, longitudes, heights;
+    for (const RunEpoch& epoch : run.epochs) {
+      if (!epoch.answered) continue;
+      latitudes.push_back(epoch.latitude_deg);
+      longitudes.push_back(epoch.longitude_deg);
+      heights.push_back(epoch.height_m);
+    }
+    if (latitudes.empty()) continue;
+    const auto median = [](std::vector<double>& values) {
+      const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+      std::nth_element(values.begin(), middle, values.end());
+      return *middle;
+    };
+    return PlaceOf(median(latitudes), median(longitudes), median(heights));
+  }
+  return std::nullopt;
+}
+
+ReportEpoch DrawnEpoch(const RunEpoch& epoch, const EpochError* error, const EnuFrame& frame,
+                       std::int64_t start_ns) {
+  ReportEpoch drawn;
+  drawn.time_s = SecondsSince(start_ns, epoch.time_gps_ns);
+  drawn.status = epoch.status;
+  drawn.satellites_used = epoch.satellites_used;
+  drawn.answered = epoch.answered;
+  if (!epoch.answered) return drawn;
+  const Eigen::Vector3d enu = frame.FromEcef(
+      EcefFromGeodetic(PlaceOf(epoch.latitude_deg, epoch.longitude_deg, epoch.height_m)));
+  drawn.east_m = enu.x();
+  drawn.north_m = enu.y();
+  // The local frame's plane leaves the ellipsoid; heights do not.
+  drawn.up_m = epoch.height_m - frame.origin().height_m;
+  drawn.accuracy_m = epoch.accuracy_m;
+  drawn.vertical_accuracy_m = epoch.vertical_accuracy_m;
+  if (epoch.horizontal_covariance_m2) drawn.ellipse = EllipseOf(*epoch.horizontal_covariance_m2);
+  if (error != nullptr) {
+    drawn.error_m = std::array{error->east_m, error->north_m};
+    drawn.up_error_m = error->up_m;
+  }
+  return drawn;
+}
+
+// Of every stretch of epochs the one with the largest error, so that no spike is lost.
+std::vector<ReportEpoch> DrawnEpochs(const RunFolder& run, const std::optional<RunErrors>& errors,
+                                     const EnuFrame& frame, std::int64_t start_ns) {
+  const std::size_t stride = (run.epochs.size() + kDrawnEpochs - 1) / kDrawnEpochs;
+  std::vector<ReportEpoch> drawn;
+  std::size_t next_error = 0;  // errors come in the order of the answered epochs
+  for (std::size_t first = 0; first < run.epochs.size(); first += stride) {
+    const std::size_t end = std::min(run.epochs.size(), first + stride);
+    const RunEpoch* chosen = &run.epochs[first];
+    const EpochError* chosen_error = nullptr;
+    for (std::size_t i = first; i < end; ++i) {
+      const RunEpoch& epoch = run.epochs[i];
+      const EpochError* error = nullptr;
+      if (epoch.answered && errors && next_error < errors->errors.size() &&
+          errors->errors[next_error].time_gps_ns == epoch.time_gps_ns) {
+        error = &errors->errors[next_error++];
+      }
+      const bool better =
+          (epoch.answered && !chosen->answered) ||
+          (error != nullptr &&
+           (chosen_error == nullptr || error->horizontal_m() > chosen_error->horizontal_m()));
+      if (i == first || better) {
+        chosen = &epoch;
+        chosen_error = error;
+      }
+    }
+    drawn.push_back(DrawnEpoch(*chosen, chosen_error, frame, start_ns));
+  }
+  return drawn;
+}
+
+std::vector<ReportTruthPoint> DrawnTruth(const TruthTrack& truth, const EnuFrame& frame,
+                                         std::int64_t start_ns, std::int64_t end_ns) {
+  std::vector<ReportTruthPoint> drawn;
+  const auto& points = truth.points();
+  const std::size_t stride = (points.size() + kDrawnTruth - 1) / kDrawnTruth;
+  for (std::size_t i = 0; i < points.size(); i += stride) {
+    const TruthPoint& point = points[i];
+    if (!truth.is_static() && (point.time_gps_ns < start_ns || point.time_gps_ns > end_ns))
+      continue;
+    const Eigen::Vector3d enu =
+        frame.FromEcef(EcefFromGeodetic(PlaceOf(point.latitude_deg, point.longitude_deg,
+                                                point.height_m.value_or(frame.origin().height_m))));
+    drawn.push_back({SecondsSince(start_ns, point.time_gps_ns), enu.x(), enu.y()});
+  }
+  return drawn;
+}
+
+std::vector<double> ErrorQuantiles(const RunErrors& errors) {
+  std::vector<double> sorted;
+  for (const EpochError& error : errors.errors) sorted.push_back(error.horizontal_m());
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<double> quantiles;
+  if (sorted.empty()) return quantiles;
+  for (std::size_t i = 0; i <= kQuantiles; ++i) {
+    quantiles.push_back(
+        SortedQuantile(sorted, static_cast<double>(i) / static_cast<double>(kQuantiles)));
+  }
+  return quantiles;
+}
+
+Status GatherSignals(const RunFolder& run, std::int64_t start_ns, std::int64_t end_ns,
+                     ReportRun* drawn, std::vector<std::string>* remarks) {
+  ReportSignals signals(start_ns, end_ns, std::min(kSlices, run.epochs.size()));
+  ReadReport report;
+  const Status read =
+      ReadRunSignals(run.path, [&](const RunSignal& row) { signals.Add(row); }, &report);
+  if (!read.ok()) return read;
+  drawn->signals = signals.Finish();
+  if (report.rows_skipped > 0) {
+    remarks->push_back(FormatProblem(report.file, report.problems.front()) + " (" +
+                       GroupDigits(report.rows_skipped) + " such rows skipped)");
+  }
+  if (signals.rows_left_out() > 0) {
+    remarks->push_back(report.file + ": names more signals than can be drawn; " +
+                       GroupDigits(signals.rows_left_out()) + " rows left out");
+  }
+  return {};
+}
+
+Status GatherEvents(const RunFolder& run, std::int64_t start_ns, ReportRun* drawn,
+                    std::vector<std::string>* remarks) {
+  ReadReport report;
+  const Result<std::vector<RunEvent>> events = ReadRunEvents(run.path, &report);
+  if (!events) return events.error();
+  drawn->event_count = static_cast<std::int64_t>(events->size());
+  for (const RunEvent& event : *events) {
+    if (drawn->events.size() == kListedEvents) break;
+    drawn->events.push_back({SecondsSince(start_ns, event.time_gps_ns), event.event, event.text});
+  }
+  if (report.rows_skipped > 0) {
+    remarks->push_back(FormatProblem(report.file, report.problems.front()) + " (" +
+                       GroupDigits(report.rows_skipped) + " such lines skipped)");
+  }
+  return {};
+}
+
+// Results where no truth is known: what the runs say about themselves.
+TextTable UncheckedTable(const std::vector<RunFolder>& runs,
+                         const std::vector<std::string>& names) {
+  TextTable table(names);
+  std::vector<std::string> expected, answered, coverage, accuracy;
+  for (const RunFolder& run : runs) {
+    std::vector<double> stated_m;
+    std::int64_t count = 0;
+    for (const RunEpoch& epoch : run.epochs) {
+      if (!epoch.answered) continue;
+      ++count;
+      if (epoch.accuracy_m) stated_m.push_back(*epoch.accuracy_m);
+    }
+    std::sort(stated_m.begin(), stated_m.end());
+    expected.push_back(GroupDigits(static_cast<std::int64_t>(run.epochs.size())));
+    answered.push_back(GroupDigits(count));
+    coverage.push_back(Format(
+        "%.1f", 100.0 * static_cast<double>(count) / static_cast<double>(run.epochs.size())));
+    accuracy.push_back(stated_m.empty() ? "" : MetresText(SortedQuantile(stated_m, 0.5)));
+  }
+  table.AddSection("Coverage");
+  table.AddRow("epochs expected", expected);
+  table.AddRow("epochs answered", answered);
+  table.AddRow("coverage", coverage, "%");
+  table.AddSection("Stated accuracy");
+  table.AddRow("median", accuracy, "m");
+  return table;
+}
+
+void AddFigures(const std::vector<ComparedRun>& compared, Report* report) {
+  const bool several = compared.size() > 1;
+  for (const ComparedRun& run : compared) {
+    const ErrorStatistics& s = run.statistics;
+    if (s.horizontal_m.count > 0) {
+      report->figures.push_back(
+          {several ? run.name : "68 % of errors below", MetresText(s.horizontal_m.p68), "m",
+           several ? "68 % of errors below; 95 % below " + MetresText(s.horizontal_m.p95) + " m"
+                   : "horizontal"});
+      if (!several) {
+        report->figures.push_back(
+            {"95 % of errors below", MetresText(s.horizontal_m.p95), "m", "horizontal"});
+      }
+    }
+    if (several && s.horizontal_m.count > 0) continue;
+    report->figures.push_back(
+        {several ? run.name + ": coverage" : "Coverage", Format("%.1f", 100.0 * s.coverage()), "%",
+         GroupDigits(s.answered_epochs) + " of " + GroupDigits(s.expected_epochs) + " epochs"});
+    if (s.within_accuracy.of > 0) {
+      report->figures.push_back({"Within stated accuracy",
+                                 Format("%.0f", 100.0 * s.within_accuracy.value()), "%",
+                                 "68 % is honest"});
+    }
+  }
+}
+
+}  // namespace
+
+Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
+                                   const std::optional<TruthTrack>& truth, ProgressBar* progress) {
+  std::vector<RunFolder> runs;
+  for (const std::string& path : run_paths) {
+    Result<RunFolder> run = ReadRunFolder(path);
+    if (!run) return run.error();
+    runs.push_back(std::move(run).value());
+  }
+  const std::vector<std::string> names = RunNames(run_paths);
+  std::int64_t start_ns = runs.front().epochs.front().time_gps_ns;
+  std::int64_t end_ns = start_ns;
+  for (const RunFolder& run : runs) {
+    for (const RunEpoch& epoch : run.epochs) {
+      start_ns = std::min(start_ns, epoch.time_gps_ns);
+      end_ns = std::max(end_ns, epoch.time_gps_ns);
+    }
+  }
+
+  ReportContent content;
+  Report& report = content.report;
+  const std::optional<Geodetic> origin = OriginOf(runs, truth);
+  const EnuFrame frame(origin.value_or(Geodetic{}));
+  std::vector<ComparedRun> compared;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const RunFolder& run = runs[i];
+    std::optional<RunErrors> errors;
+    if (truth) {
+      Result<RunErrors> against = ErrorsAgainst(run, *truth);
+      if (!against) return against.error();
+      errors = std::move(against).value();
+      compared.push_back({names[i], run.path, errors->epochs_without_truth,
+                          run.trajectory_report.rows_skipped,
+                          StatisticsOf(errors->errors, errors->expected_epochs)});
+    }
+    ReportRun drawn;
+    drawn.name = names[i];
+    drawn.epoch_count = static_cast<std::int64_t>(run.epochs.size());
+    drawn.span_s = SecondsSince(start_ns, end_ns);
+    drawn.epochs = DrawnEpochs(run, errors, frame, start_ns);
+    if (errors) drawn.error_quantiles_m = ErrorQuantiles(*errors);
+    const Status signals = GatherSignals(run, start_ns, end_ns, &drawn, &content.remarks);
+    if (!signals.ok()) return signals.error();
+    const Status events = GatherEvents(run, start_ns, &drawn, &content.remarks);
+    if (!events.ok()) return events.error();
+    if (run.trajectory_report.rows_skipped > 0) {
+      content.remarks.push_back(run.path + ": " + GroupDigits(run.trajectory_report.rows_skipped) +
+                                " malformed rows of trajectory.csv skipped");
+    }
+    for (const RunEpoch& epoch : run.epochs) content.any_estimate |= epoch.answered;
+    report.runs.push_back(std::move(drawn));
+    progress->Update(static_cast<double>(i + 1) / static_cast<double>(runs.size()));
+  }
+
+  const TextTable table = truth ? CompareTable(compared) : UncheckedTable(runs, names);
+  for (const TextTable::Row& row : table.rows()) {
+    report.table.push_back({row.section, row.label, row.values, row.unit});
+  }
+  if (truth) {
+    report.truth = DrawnTruth(*truth, frame, start_ns, end_ns);
+    AddFigures(compared, &report);
+  } else {
+    for (const char* label : {"coverage", "median"}) {
+      for (const TextTable::Row& row : table.rows()) {
+        if (row.label != label || row.values.front().empty()) continue;
+        const bool coverage = row.label == "coverage";
+        report.figures.push_back({coverage ? "Coverage" : "Stated accuracy", row.values.front(),
+                                  row.unit, coverage ? "" : "median, no truth to check it"});
+      }
+    }
+  }
+  report.start = CalendarText(start_ns);
+  report.title = runs.size() == 1 ? names.front() : Format("%zu runs compared", runs.size());
+  report.subtitle = report.start + " GPS time, " + Format("%.0f s", SecondsSince(start_ns, end_ns));
+  if (origin) {
+    report.subtitle += Format(", near %.5f° %.5f°", origin->latitude_rad * kDegreesPerRadian,
+                              origin->longitude_rad * kDegreesPerRadian);
+  }
+  if (truth) report.subtitle += ", truth from " + truth->file();
+  report.generator = "Made by lodemark " + VersionText() + ". This file needs no network.";
+  return content;
+}
+
+}  // namespace lodemark

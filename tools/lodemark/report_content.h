@@ -1,0 +1,25 @@
+// Gathers from run folders, and the truth where known, what the report page shows.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "tools/lodemark/truth_track.h"
+#include "tools/report/report.h"
+
+namespace lodemark {
+
+class ProgressBar;
+
+struct ReportContent {
+  Report report;
+  std::vector<std::string> remarks;  // for stderr: rows skipped and the like
+  bool any_estimate = false;
+};
+
+Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
+                                   const std::optional<TruthTrack>& truth, ProgressBar* progress);
+
+}  // namespace lodemark
