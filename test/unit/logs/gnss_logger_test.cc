@@ -31,17 +31,17 @@ constexpr std::string_view kHeader30 =
 // A Raw row in the order of kHeader30; the rest of a measurement is the same in all of them.
 std::string Raw30(std::string_view time_ns, std::string_view svid, std::string_view constellation) {
   std::string row = "Raw,1700000000000,";
-  row.append(time_ns).append(",18,,-1383435750910273353,0.25,7.5,129.0,1.0,22,").append(svid);
-  row += ",0.0,16431,258211922049091,40,28.5,673.75,0.5,16,40099.5,0.25,1575420030,,,,1,,";
-  row.append(constellation).append(",-1.5,25.25,-0.5,1.0,-0.75,1.0,C,16136559319000\n");
+  row.append(time_ns).append(",18,,-1400000000123456789,0.25,7.5,129.0,1.0,22,").append(svid);
+  row += ",0.0,16399,250000111222333,40,28.5,650.75,0.5,16,40000.5,0.25,1575420000,,,,1,,";
+  row.append(constellation).append(",-1.5,25.25,-0.5,1.0,-0.75,1.0,C,16000555333000\n");
   return row;
 }
 
 // A Raw row in the order of v1.4.
 std::string Raw14(std::string_view time_ns, std::string_view svid, std::string_view constellation) {
-  std::string row = "Raw,344412380,";
-  row.append(time_ns).append(",,,-1155937562915873645,0.0,7.6,,,0,").append(svid);
-  row += ",0.0,39,164772920063716,16,34.5,627.25,0.0625,3,5009.25,0.0016,,,,,0,,";
+  std::string row = "Raw,300012380,";
+  row.append(time_ns).append(",,,-1150000000987654321,0.0,7.6,,,0,").append(svid);
+  row += ",0.0,39,164000777888999,16,34.5,600.25,0.0625,3,4000.25,0.0016,,,,,0,,";
   row.append(constellation).append("\n");
   return row;
 }
@@ -72,19 +72,19 @@ struct Log {
 };
 
 TEST(GnssLogger, ReadsEveryColumnOfARawRow) {
-  const Log log(std::string(kHeader30) + Raw30("61090000000", "4", "1"));
+  const Log log(std::string(kHeader30) + Raw30("61000000000", "4", "1"));
   const auto epochs = log.All<AndroidEpoch>();
   ASSERT_EQ(epochs.size(), 1u);
   const AndroidClock& clock = epochs[0].clock;
-  EXPECT_EQ(clock.time_ns, 61'090'000'000);
-  EXPECT_EQ(clock.full_bias_ns, -1'383'435'750'910'273'353);
+  EXPECT_EQ(clock.time_ns, 61'000'000'000);
+  EXPECT_EQ(clock.full_bias_ns, -1'400'000'000'123'456'789);
   EXPECT_EQ(clock.bias_ns, 0.25);
   EXPECT_EQ(clock.bias_uncertainty_ns, 7.5);
   EXPECT_EQ(clock.drift_nsps, 129.0);
   EXPECT_EQ(clock.drift_uncertainty_nsps, 1.0);
   EXPECT_EQ(clock.leap_second, 18);
   EXPECT_EQ(clock.hardware_clock_discontinuity_count, 22);
-  EXPECT_EQ(clock.elapsed_realtime_ns, 16'136'559'319'000);
+  EXPECT_EQ(clock.elapsed_realtime_ns, 16'000'555'333'000);
   EXPECT_EQ(clock.present, kClockHasLeapSecond | kClockHasFullBias | kClockHasBias |
                                kClockHasBiasUncertainty | kClockHasDrift |
                                kClockHasDriftUncertainty | kClockHasElapsedRealtime);
@@ -93,17 +93,17 @@ TEST(GnssLogger, ReadsEveryColumnOfARawRow) {
   const AndroidMeasurement& m = epochs[0].measurements[0];
   EXPECT_EQ(m.svid, 4);
   EXPECT_EQ(m.constellation_type, 1);
-  EXPECT_EQ(m.state, 16431);
-  EXPECT_EQ(m.received_sv_time_ns, 258'211'922'049'091);
+  EXPECT_EQ(m.state, 16399);
+  EXPECT_EQ(m.received_sv_time_ns, 250'000'111'222'333);
   EXPECT_EQ(m.received_sv_time_uncertainty_ns, 40);
   EXPECT_EQ(m.cn0_dbhz, 28.5);
   EXPECT_EQ(m.baseband_cn0_dbhz, 25.25);
-  EXPECT_EQ(m.pseudorange_rate_mps, 673.75);
+  EXPECT_EQ(m.pseudorange_rate_mps, 650.75);
   EXPECT_EQ(m.pseudorange_rate_uncertainty_mps, 0.5);
   EXPECT_EQ(m.accumulated_delta_range_state, 16);
-  EXPECT_EQ(m.accumulated_delta_range_m, 40099.5);
+  EXPECT_EQ(m.accumulated_delta_range_m, 40000.5);
   EXPECT_EQ(m.accumulated_delta_range_uncertainty_m, 0.25);
-  EXPECT_EQ(m.carrier_frequency_hz, 1'575'420'030.0);
+  EXPECT_EQ(m.carrier_frequency_hz, 1'575'420'000.0);
   EXPECT_EQ(m.multipath_indicator, 1);
   EXPECT_EQ(m.agc_db, -1.5);
   EXPECT_EQ(m.full_inter_signal_bias_ns, -0.5);
@@ -140,11 +140,11 @@ TEST(GnssLogger, ReadsVersion14WithItsHeaderAndWithout) {
       "CarrierCycles,CarrierPhase,CarrierPhaseUncertainty,MultipathIndicator,SnrInDb,"
       "ConstellationType\r\n";
   for (const std::string& head : {header, std::string()}) {
-    const Log log(head + Raw14("10084000000", "93", "3"));
+    const Log log(head + Raw14("10000000000", "93", "3"));
     const auto epochs = log.All<AndroidEpoch>();
     ASSERT_EQ(epochs.size(), 1u);
-    EXPECT_EQ(epochs[0].clock.full_bias_ns, -1'155'937'562'915'873'645);
-    EXPECT_EQ(epochs[0].clock.elapsed_realtime_ns, 344'412'380'000'000);
+    EXPECT_EQ(epochs[0].clock.full_bias_ns, -1'150'000'000'987'654'321);
+    EXPECT_EQ(epochs[0].clock.elapsed_realtime_ns, 300'012'380'000'000);
     EXPECT_EQ(epochs[0].measurements[0].svid, 93);  // a frequency channel + 100, as logged
     EXPECT_FALSE(epochs[0].measurements[0].Has(kMeasurementHasCarrierFrequency));
     EXPECT_FALSE(epochs[0].clock.Has(kClockHasLeapSecond));
@@ -153,7 +153,7 @@ TEST(GnssLogger, ReadsVersion14WithItsHeaderAndWithout) {
 }
 
 TEST(GnssLogger, ReadsAVersion30RowWithoutHeader) {
-  const Log log(Raw30("61090000000", "9", "7"));  // constellation 7 is NavIC
+  const Log log(Raw30("61000000000", "9", "7"));  // constellation 7 is NavIC
   const auto epochs = log.All<AndroidEpoch>();
   ASSERT_EQ(epochs.size(), 1u);
   EXPECT_EQ(epochs[0].measurements[0].constellation_type, 7);
@@ -256,51 +256,51 @@ TEST(GnssLogger, SaysWhichColumnAHeaderLacks) {
 TEST(GnssLogger, ReadsFixesOfBothColumnOrders) {
   const Log log(
       "# Fix,Provider,Latitude,Longitude,Altitude,Speed,Accuracy,(UTC)TimeInMs\n"
-      "Fix,gps,60.25,10.5,177.75,0.5,2.0,1480933031999\n"
+      "Fix,gps,60.25,10.5,170.75,0.5,2.0,1480000031999\n"
       "# Fix,Provider,LatitudeDegrees,LongitudeDegrees,AltitudeMeters,SpeedMps,AccuracyMeters,"
       "BearingDegrees,UnixTimeMillis,SpeedAccuracyMps,BearingAccuracyDegrees,"
       "elapsedRealtimeNanos,VerticalAccuracyMeters\n"
-      "Fix,FLP,37.5,-122.25,-29co.19,0.25,4.0,181.5,1699400582000,0.125,,16124559129000,3.0\n"
-      "Fix,FLP,97.5,-122.25,0,0,4.0,0,1699400582000,0,,1,3.0\n");
+      "Fix,FLP,37.5,-122.25,-29co.19,0.25,4.0,181.5,1700000582000,0.125,,16100559129000,3.0\n"
+      "Fix,FLP,97.5,-122.25,0,0,4.0,0,1700000582000,0,,1,3.0\n");
   const auto fixes = log.All<LoggedFix>();
   ASSERT_EQ(fixes.size(), 2u);
   EXPECT_EQ(fixes[0].provider, "gps");
-  EXPECT_EQ(fixes[0].height_m, 177.75);
-  EXPECT_EQ(fixes[0].unix_time_ms, 1'480'933'031'999);
+  EXPECT_EQ(fixes[0].height_m, 170.75);
+  EXPECT_EQ(fixes[0].unix_time_ms, 1'480'000'031'999);
   EXPECT_EQ(fixes[0].elapsed_realtime_ns, std::nullopt);
   EXPECT_EQ(fixes[1].longitude_deg, -122.25);
   EXPECT_EQ(fixes[1].height_m, std::nullopt);  // "-29co.19" is no number
   EXPECT_EQ(fixes[1].bearing_deg, 181.5);
   EXPECT_EQ(fixes[1].vertical_accuracy_m, 3.0);
-  EXPECT_EQ(fixes[1].elapsed_realtime_ns, 16'124'559'129'000);
+  EXPECT_EQ(fixes[1].elapsed_realtime_ns, 16'100'559'129'000);
   EXPECT_EQ(log.reader.report().rows_skipped, 1);  // latitude 97.5
 }
 
 TEST(GnssLogger, ReadsStatusAndAgcRows) {
   const Log log(
-      "Status,,37,23,6,11,1575420032,36.5,313.0,40.0,1,1,0\n"
+      "Status,,20,3,6,11,1575420000,36.5,310.0,45.0,1,1,0\n"
       "# Agc,utcTimeMillis,TimeNanos,LeapSecond,AgcDb,CarrierFrequencyHz,ConstellationType\n"
-      "Agc,1699400632000,99090000000,,43.75,1176450000,6\n");
+      "Agc,1700000632000,99000000000,,40.75,1176450000,6\n");
   const auto statuses = log.All<LoggedStatus>();
   ASSERT_EQ(statuses.size(), 1u);
   EXPECT_EQ(statuses[0].unix_time_ms, std::nullopt);
   EXPECT_EQ(statuses[0].constellation_type, 6);
   EXPECT_EQ(statuses[0].svid, 11);
   EXPECT_EQ(statuses[0].cn0_dbhz, 36.5);
-  EXPECT_EQ(statuses[0].azimuth_deg, 313.0);
-  EXPECT_EQ(statuses[0].elevation_deg, 40.0);
+  EXPECT_EQ(statuses[0].azimuth_deg, 310.0);
+  EXPECT_EQ(statuses[0].elevation_deg, 45.0);
   EXPECT_TRUE(statuses[0].used_in_fix);
   const auto agcs = log.All<LoggedAgc>();
   ASSERT_EQ(agcs.size(), 1u);
-  EXPECT_EQ(agcs[0].agc_db, 43.75);
+  EXPECT_EQ(agcs[0].agc_db, 40.75);
   EXPECT_EQ(agcs[0].carrier_frequency_hz, 1'176'450'000.0);
-  EXPECT_EQ(agcs[0].unix_time_ms, 1'699'400'632'000);
+  EXPECT_EQ(agcs[0].unix_time_ms, 1'700'000'632'000);
 }
 
 TEST(GnssLogger, ReadsNavigationMessagesAsBytes) {
   const Log log(
-      "Nav,98,769,1,5,6,53,-84,49,44\n"
-      "Nav,2,257,1,-1,1,34,-61,-129\n"
+      "Nav,98,769,1,5,6,11,-84,33,44\n"
+      "Nav,2,257,1,-1,1,34,-51,-129\n"
       "Nav,2,257,1,-1\n"
       "Nav,2,257,1,-1,1\n"
       "Nav,2,257,1,-1,1,34,-6");
@@ -311,7 +311,7 @@ TEST(GnssLogger, ReadsNavigationMessagesAsBytes) {
   EXPECT_EQ(messages[0].status, 1);
   EXPECT_EQ(messages[0].message_id, 5);
   EXPECT_EQ(messages[0].submessage_id, 6);
-  EXPECT_THAT(messages[0].bytes, ElementsAre(53, 172, 49, 44));
+  EXPECT_THAT(messages[0].bytes, ElementsAre(11, 172, 33, 44));
   EXPECT_EQ(log.reader.report().rows_skipped, 4);
 }
 
@@ -319,10 +319,10 @@ TEST(GnssLogger, ReadsInertialAndOrientationRows) {
   const Log log(
       "# UncalGyro,utcTimeMillis,elapsedRealtimeNanos,UncalGyroXRadPerSec,UncalGyroYRadPerSec,"
       "UncalGyroZRadPerSec,DriftXRadPerSec,DriftYRadPerSec,DriftZRadPerSec,CalibrationAccuracy\n"
-      "UncalGyro,1699400633290,16175376984694,0.5,-0.25,0.125,-0.0625,-0.5,0.75,3\n"
+      "UncalGyro,1700000633290,16100000984694,0.5,-0.25,0.125,-0.0625,-0.5,0.75,3\n"
       "UncalAccel,1,2,0.5,1.5,9.75,0.25,0.125,-0.5\n"
-      "Mag,1,2,-68.5,-103.25,-155.75\n"
-      "OrientationDeg,1,2,229.0,1.0,-5.0\n"
+      "Mag,1,2,-60.5,-10.25,-15.75\n"
+      "OrientationDeg,1,2,220.0,1.0,-5.0\n"
       "# GameRotationVector,utcTimeMillis,elapsedRealtimeNanos,w,x,y,z\n"
       "GameRotationVector,1,2,0.5,-0.5,0.25,0.75\n"
       "Pressure,1,2,1013.25\n"
@@ -331,8 +331,8 @@ TEST(GnssLogger, ReadsInertialAndOrientationRows) {
   ASSERT_EQ(rows.size(), 6u);
   EXPECT_EQ(rows[0].kind, LoggedSensor::Kind::kTurnRate);
   EXPECT_TRUE(rows[0].uncalibrated);
-  EXPECT_EQ(rows[0].elapsed_realtime_ns, 16'175'376'984'694);
-  EXPECT_EQ(rows[0].unix_time_ms, 1'699'400'633'290);
+  EXPECT_EQ(rows[0].elapsed_realtime_ns, 16'100'000'984'694);
+  EXPECT_EQ(rows[0].unix_time_ms, 1'700'000'633'290);
   EXPECT_THAT(rows[0].values, ElementsAre(0.5, -0.25, 0.125, 0.0));
   EXPECT_THAT(rows[0].biases, ElementsAre(-0.0625, -0.5, 0.75));
   EXPECT_EQ(rows[1].kind, LoggedSensor::Kind::kAcceleration);
