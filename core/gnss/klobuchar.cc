@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kGpsL1_hz = 1575.42e6;
 constexpr double kBeidouB1I_hz = 1561.098e6;
+constexpr double kNavicL5_hz = 1176.45e6;
 constexpr double kDay_s = 86'400.0;
 constexpr double kLocalNoonShift_s = 50'400.0;  // the delay peaks at 14 h
 constexpr double kNightDelay_s = 5e-9;
@@ -21,6 +22,12 @@ double Polynomial(const std::array<double, 4>& coefficients, double x) {
 double SecondsOfLocalDay(double longitude_semicircles, double time_of_day_s) {
   const double local_s = 43'200.0 * longitude_semicircles + time_of_day_s;
   return local_s - kDay_s * std::floor(local_s / kDay_s);
+}
+
+// The carrier that the coefficients are for; NavIC's: IRNSS SIS ICD 1.1 appendix H.
+double ReferenceFrequency(System system) {
+  if (system == System::kBeidou) return kBeidouB1I_hz;
+  return system == System::kNavic ? kNavicL5_hz : kGpsL1_hz;
 }
 
 double TimeOfDay(std::int64_t time_ns) {
@@ -84,7 +91,7 @@ double KlobucharDelay(const KlobucharParameters& parameters, const Geodetic& rec
   const bool beidou = parameters.system == System::kBeidou;
   const double delay_s = beidou ? BeidouDelaySeconds(parameters, receiver, satellite, time_gps_ns)
                                 : GpsDelaySeconds(parameters, receiver, satellite, time_gps_ns);
-  const double ratio = (beidou ? kBeidouB1I_hz : kGpsL1_hz) / frequency_hz;
+  const double ratio = ReferenceFrequency(parameters.system) / frequency_hz;
   return kSpeedOfLight_mps * delay_s * ratio * ratio;
 }
 
