@@ -12,6 +12,15 @@ namespace {
 constexpr double kConverged_m = 1e-4;
 constexpr double kUnknownBias_m = 1e4;  // a sigma beyond which a bias counts as not known
 
+// Ranges that must fit the error model beyond those that determine the unknowns: any three planes
+// and a clock meet somewhere.
+constexpr double kAgreeingBeyondNeeded = 1.0;
+
+// Ranges that must be likelier noise than anything else, in sum of probabilities. Where a receiver
+// has hardly a lock, the error model can explain everything as late and still be tens of
+// kilometres off; then none of its ranges looks like ordinary noise.
+constexpr double kFewestOrdinary = 2.0;
+
 // Cauchy weights whose width shrinks step by step (graduated non-convexity), late errors held
 // more suspect than early ones.
 double GraduatedWeight(double residual_m, double sigma_m, double width) {
@@ -188,6 +197,8 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
     }
   }
 
+  double explained = 0.0;  // rows whose error is noise or a reflection
+  double ordinary = 0.0;   // rows whose error is noise
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const PointProblem::Row& row = problem.rows()[i];
     ObservationVerdict& verdict = (*verdicts)[i];
@@ -199,6 +210,13 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
     verdict.observable = row.clock <= 0 || problem.members(row.clock) > 1 ||
                          problem.prior_sigma_m(row.clock) <= kUnknownBias_m;
     if (verdict.used) ++estimate->used;
+    explained += terms.core_share + terms.late_share;
+    ordinary += terms.core_share;
+  }
+  const double needed = static_cast<double>(observations.size()) - redundancy;
+  if (explained < needed + (redundancy > 0 ? kAgreeingBeyondNeeded : 0.0) ||
+      ordinary < kFewestOrdinary) {
+    return estimate->status = PointStatus::kInconsistent;
   }
   return estimate->status = PointStatus::kGood;
 }

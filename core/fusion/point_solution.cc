@@ -21,34 +21,35 @@ constexpr double kHopelessDilution = 1e4;
 // Nobody reads landmarks and satellites from farther above or below the ground.
 constexpr double kFarthestFromGround_m = 1e5;
 
-struct Candidate {
-  Eigen::Vector3d position_in_ecef;
-  double cost = 0.0;
-  PointEstimate estimate;
-};
-
 // The same observations with their clock groups numbered from 0 as they appear.
 struct Problem {
+  explicit Problem(std::span<const RangeObservation> given)
+      : observations(given.begin(), given.end()) {
+    std::array<std::int32_t, kMaxClockGroups> dense;
+    dense.fill(kNoClock);
+    for (RangeObservation& observation : observations) {
+      if (observation.clock_group == kNoClock) continue;
+      std::int32_t& number = dense[static_cast<std::size_t>(observation.clock_group)];
+      if (number == kNoClock) {
+        number = static_cast<std::int32_t>(group_of.size());
+        group_of.push_back(observation.clock_group);
+      }
+      observation.clock_group = number;
+      ++members[static_cast<std::size_t>(number)];
+    }
+  }
+
+  int unknowns() const { return 3 + static_cast<int>(group_of.size()); }
+  // False for a range whose clock no other shares: it finds that clock and nothing else.
+  bool IsObservable(const RangeObservation& observation) const {
+    return observation.clock_group == kNoClock ||
+           members[static_cast<std::size_t>(observation.clock_group)] > 1;
+  }
+
   std::vector<RangeObservation> observations;
   std::vector<int> group_of;  // dense number to the caller's
+  std::array<int, kMaxClockGroups> members = {};
 };
-
-Problem Renumber(std::span<const RangeObservation> observations) {
-  Problem problem;
-  problem.observations.assign(observations.begin(), observations.end());
-  std::array<std::int32_t, kMaxClockGroups> dense;
-  dense.fill(kNoClock);
-  for (RangeObservation& observation : problem.observations) {
-    if (observation.clock_group == kNoClock) continue;
-    std::int32_t& number = dense[static_cast<std::size_t>(observation.clock_group)];
-    if (number == kNoClock) {
-      number = static_cast<std::int32_t>(problem.group_of.size());
-      problem.group_of.push_back(observation.clock_group);
-    }
-    observation.clock_group = number;
-  }
-  return problem;
-}
 
 // Fourteen places around the landmarks, as far from them as the ranges say. Empty without
 // landmarks.
@@ -93,7 +94,7 @@ Eigen::Vector3d BesideThePoints(Eigen::Vector3d start,
 std::optional<PointMatrix> Cofactor(const Problem& problem,
                                     const std::vector<ObservationVerdict>& verdicts,
                                     const Eigen::Vector3d& position_in_ecef, bool weighted) {
-  const int unknowns = 3 + static_cast<int>(problem.group_of.size());
+  const int unknowns = problem.unknowns();
   PointMatrix normal = PointMatrix::Zero(unknowns, unknowns);
   const Eigen::Matrix3d enu_from_ecef = EnuFromEcefRotation(GeodeticFromEcef(position_in_ecef));
   std::array<bool, kMaxClockGroups> seen = {};
@@ -132,46 +133,45 @@ class Solver {
     options_.posterior_mean = false;  // the mode: what the ranges say, not how others might err
   }
 
-  // Follows one start to the place it leads to.
-  PointStatus Follow(const Eigen::Vector3d& start_in_ecef) {
-    Candidate candidate;
-    const PointStatus status =
-        adjustment_.Solve(problem_.observations, BesideThePoints(start_in_ecef, observations()),
-                          ClockBiases(), options_, &candidate.estimate, &verdicts_);
-    if (status != PointStatus::kGood) return status;
-    candidate.position_in_ecef = candidate.estimate.position_in_ecef;
-    if (!candidate.position_in_ecef.allFinite()) return PointStatus::kNotConverged;
+  // Follows one start to the place it leads to, if there is one.
+  void Follow(const Eigen::Vector3d& start_in_ecef) {
+    PointEstimate estimate;
+    const PointStatus status = adjustment_.Solve(
+        problem_.observations, BesideThePoints(start_in_ecef, problem_.observations), ClockBiases(),
+        options_, &estimate, &verdicts_);
+    // Whether enough of them agree is judged once the best place is known.
+    if (status != PointStatus::kGood && status != PointStatus::kInconsistent) return;
+    if (!estimate.position_in_ecef.allFinite()) return;
+    double cost = 0.0;
     for (std::size_t i = 0; i < verdicts_.size(); ++i) {
-      candidate.cost -=
-          std::log(RangeErrorDensity(observations()[i].error, verdicts_[i].residual_m));
+      cost -= std::log(RangeErrorDensity(problem_.observations[i].error, verdicts_[i].residual_m));
     }
-    candidates_.push_back(candidate);
-    return status;
+    candidates_.push_back({cost, estimate});
   }
 
-  // Of all places found the one that fits best; it must exist. Its verdicts are left in verdicts.
-  const Candidate& Best() {
+  // Of all places found the one that fits best; null if there is none.
+  const PointEstimate* Best() {
     const auto costs_less = [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; };
     std::sort(candidates_.begin(), candidates_.end(), costs_less);
-    return candidates_.front();
+    return candidates_.empty() ? nullptr : &candidates_.front().estimate;
   }
 
-  // Whether another place near the ground fits as well as the best.
+  // Whether another place near the ground, this far from the best, fits as well. After Best.
   bool IsAmbiguous(double distinct_m) const {
     const Candidate& best = candidates_.front();
     return std::any_of(candidates_.begin(), candidates_.end(), [&](const Candidate& other) {
-      const Eigen::Vector3d& place = other.position_in_ecef;
+      const Eigen::Vector3d& place = other.estimate.position_in_ecef;
       return other.cost < best.cost + kTellingCost &&
-             (place - best.position_in_ecef).norm() > distinct_m &&
+             (place - best.estimate.position_in_ecef).norm() > distinct_m &&
              std::abs(GeodeticFromEcef(place).height_m) < kFarthestFromGround_m;
     });
   }
 
-  bool found() const { return !candidates_.empty(); }
-  const std::vector<ObservationVerdict>& verdicts() const { return verdicts_; }
-
  private:
-  const std::vector<RangeObservation>& observations() const { return problem_.observations; }
+  struct Candidate {
+    double cost = 0.0;
+    PointEstimate estimate;
+  };
 
   const Problem& problem_;
   PointOptions options_;
@@ -180,6 +180,66 @@ class Solver {
   std::vector<Candidate> candidates_;
 };
 
+std::vector<Eigen::Vector3d> Starts(const Problem& problem,
+                                    const std::optional<Eigen::Vector3d>& start_in_ecef) {
+  if (start_in_ecef) return {*start_in_ecef};
+  std::vector<Eigen::Vector3d> starts = StartsAroundLandmarks(problem.observations);
+  if (!starts.empty()) return starts;
+  const std::optional<Eigen::Vector3d> coarse = CoarsePosition(problem.observations);
+  if (coarse) starts.push_back(*coarse);
+  return starts;
+}
+
+double ClockOf(const PointEstimate& estimate, std::int32_t group) {
+  if (group == kNoClock) return 0.0;
+  return estimate.clock_m + estimate.biases[static_cast<std::size_t>(group)].mean_m;
+}
+
+// How each range fits the place.
+void Judge(const Problem& problem, const PointEstimate& estimate,
+           std::vector<ObservationVerdict>* verdicts) {
+  for (std::size_t i = 0; i < verdicts->size(); ++i) {
+    const RangeObservation& observation = problem.observations[i];
+    ObservationVerdict& verdict = (*verdicts)[i];
+    verdict.residual_m = observation.range_m -
+                         (observation.point_in_ecef - estimate.position_in_ecef).norm() -
+                         ClockOf(estimate, observation.clock_group);
+    verdict.observable = problem.IsObservable(observation);
+    if (!verdict.observable) continue;
+    verdict.weight = EvaluateRangeError(observation.error, verdict.residual_m).core_share;
+    verdict.used = verdict.weight >= 0.5;
+  }
+}
+
+// Whether those that agree are enough to prove the others wrong.
+bool EnoughAgree(const Problem& problem, const std::vector<ObservationVerdict>& verdicts) {
+  int observable = 0;
+  int used = 0;
+  for (const ObservationVerdict& verdict : verdicts) {
+    observable += verdict.observable ? 1 : 0;
+    used += verdict.used ? 1 : 0;
+  }
+  int unknowns = 3;
+  for (std::size_t g = 0; g < problem.group_of.size(); ++g) {
+    if (problem.members[g] > 1) ++unknowns;
+  }
+  return used == observable || (used > unknowns && 2 * used >= observable);
+}
+
+void FillClocks(const Problem& problem, const PointEstimate& estimate,
+                const PointMatrix& covariance, const PointMatrix& cofactor,
+                PointSolution* solution) {
+  for (std::size_t g = 0; g < problem.group_of.size(); ++g) {
+    if (problem.members[g] < 2) continue;
+    const auto k = static_cast<Eigen::Index>(3 + g);
+    const auto group = static_cast<std::size_t>(problem.group_of[g]);
+    if (solution->clock_groups == 0) solution->tdop = std::sqrt(cofactor(k, k));
+    solution->clock_groups |= 1u << group;
+    solution->clock_m[group] = ClockOf(estimate, static_cast<std::int32_t>(g));
+    solution->clock_sigma_m[group] = std::sqrt(covariance(k, k));
+  }
+}
+
 }  // namespace
 
 PointSolution SolvePoint(std::span<const RangeObservation> observations,
@@ -187,64 +247,25 @@ PointSolution SolvePoint(std::span<const RangeObservation> observations,
                          std::vector<ObservationVerdict>* verdicts) {
   PointSolution solution;
   verdicts->assign(observations.size(), ObservationVerdict());
-  const Problem problem = Renumber(observations);
-  const int unknowns = 3 + static_cast<int>(problem.group_of.size());
-  if (static_cast<int>(observations.size()) < unknowns) return solution;
+  const Problem problem(observations);
+  if (static_cast<int>(observations.size()) < problem.unknowns()) return solution;
 
-  std::vector<Eigen::Vector3d> starts = StartsAroundLandmarks(problem.observations);
-  if (start_in_ecef) {
-    starts.assign(1, *start_in_ecef);
-  } else if (starts.empty()) {
-    const std::optional<Eigen::Vector3d> coarse = CoarsePosition(problem.observations);
-    if (coarse) starts.push_back(*coarse);
-  }
   Solver solver(problem);
-  for (const Eigen::Vector3d& start : starts) solver.Follow(start);
+  for (const Eigen::Vector3d& start : Starts(problem, start_in_ecef)) solver.Follow(start);
+  const PointEstimate* best = solver.Best();
   solution.status = PointSolutionStatus::kNotConverged;
-  if (!solver.found()) return solution;
+  if (best == nullptr) return solution;
 
-  const Eigen::Vector3d place = solver.Best().position_in_ecef;
-  const PointEstimate estimate = solver.Best().estimate;
-  const auto value_of_clock = [&](std::int32_t group) {
-    return estimate.clock_m + estimate.biases[static_cast<std::size_t>(group)].mean_m;
-  };
-  std::vector<ObservationVerdict> judged(observations.size());
-  std::array<int, kMaxClockGroups> members = {};
-  for (const RangeObservation& observation : problem.observations) {
-    if (observation.clock_group != kNoClock) {
-      ++members[static_cast<std::size_t>(observation.clock_group)];
-    }
-  }
-  int observable = 0;
-  for (std::size_t i = 0; i < judged.size(); ++i) {
-    const RangeObservation& observation = problem.observations[i];
-    const bool has_clock = observation.clock_group != kNoClock;
-    ObservationVerdict& verdict = judged[i];
-    verdict.observable =
-        !has_clock || members[static_cast<std::size_t>(observation.clock_group)] > 1;
-    verdict.residual_m = observation.range_m - (observation.point_in_ecef - place).norm() -
-                         (has_clock ? value_of_clock(observation.clock_group) : 0.0);
-    if (!verdict.observable) continue;
-    ++observable;
-    verdict.weight = EvaluateRangeError(observation.error, verdict.residual_m).core_share;
-    verdict.used = verdict.weight >= 0.5;
-    if (verdict.used) ++solution.used;
-  }
-  *verdicts = judged;
-
-  // Groups that still have a clock to find.
-  int clocks = 0;
-  for (std::size_t g = 0; g < problem.group_of.size(); ++g) clocks += members[g] > 1 ? 1 : 0;
-  const bool all_used = solution.used == observable;
-  if (!all_used && (solution.used <= 3 + clocks || 2 * solution.used < observable)) {
+  Judge(problem, *best, verdicts);
+  if (!EnoughAgree(problem, *verdicts)) {
     solution.status = PointSolutionStatus::kInconsistent;
     return solution;
   }
-  const auto covariance = Cofactor(problem, judged, place, true);
-  const auto dilution = Cofactor(problem, judged, place, false);
-  if (!covariance || !dilution) return solution;
-  solution.pdop = std::sqrt(dilution->topLeftCorner<3, 3>().trace());
-  if (!(solution.pdop < kHopelessDilution)) return solution;
+  const auto covariance = Cofactor(problem, *verdicts, best->position_in_ecef, true);
+  const auto cofactor = Cofactor(problem, *verdicts, best->position_in_ecef, false);
+  if (!covariance || !cofactor) return solution;
+  const double pdop = std::sqrt(cofactor->topLeftCorner<3, 3>().trace());
+  if (!(pdop < kHopelessDilution)) return solution;
   const double sigma_m = std::sqrt(covariance->topLeftCorner<3, 3>().trace());
   if (!start_in_ecef && solver.IsAmbiguous(1.0 + sigma_m)) {
     solution.status = PointSolutionStatus::kAmbiguous;
@@ -252,19 +273,13 @@ PointSolution SolvePoint(std::span<const RangeObservation> observations,
   }
 
   solution.status = PointSolutionStatus::kGood;
-  solution.position_in_ecef = place;
+  solution.position_in_ecef = best->position_in_ecef;
   solution.covariance_enu_m2 = covariance->topLeftCorner<3, 3>();
-  solution.hdop = std::sqrt((*dilution)(0, 0) + (*dilution)(1, 1));
-  solution.vdop = std::sqrt((*dilution)(2, 2));
-  for (std::size_t g = 0; g < problem.group_of.size(); ++g) {
-    if (members[g] < 2) continue;
-    const auto k = static_cast<Eigen::Index>(3 + g);
-    const auto group = static_cast<std::size_t>(problem.group_of[g]);
-    if (solution.clock_groups == 0) solution.tdop = std::sqrt((*dilution)(k, k));
-    solution.clock_groups |= 1u << group;
-    solution.clock_m[group] = value_of_clock(static_cast<std::int32_t>(g));
-    solution.clock_sigma_m[group] = std::sqrt((*covariance)(k, k));
-  }
+  solution.pdop = pdop;
+  solution.hdop = std::sqrt((*cofactor)(0, 0) + (*cofactor)(1, 1));
+  solution.vdop = std::sqrt((*cofactor)(2, 2));
+  FillClocks(problem, *best, *covariance, *cofactor, &solution);
+  for (const ObservationVerdict& verdict : *verdicts) solution.used += verdict.used ? 1 : 0;
   return solution;
 }
 

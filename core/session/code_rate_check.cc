@@ -14,7 +14,7 @@ constexpr double kLongestGap_s = 1.5;
 
 constexpr double kUnknown = 1e99;
 
-const int kLongestMemory = getenv("PMEM")?atoi(getenv("PMEM")):5;
+const int kLongestMemory = getenv("PMEM")?atoi(getenv("PMEM")):8;
 
 }  // namespace
 

@@ -8,10 +8,10 @@ namespace lodemark {
 namespace {
 double P(const char* n, double d) { const char* e = std::getenv(n); return e ? std::atof(e) : d; }
 struct Pars {
-  double a = P("PA", 2.0), b = P("PB", 1.9), e0 = P("PE0", 0.8), prior = P("PPRIOR", 100),
-         mid = P("PMID", 18), width = P("PWIDTH", 4), l0 = P("PL0", 3), l1 = P("PL1", 1.8), lmax = P("PLMAX", 60),
+  double a = P("PA", 2.0), b = P("PB", 2.3), e0 = P("PE0", 0.9), prior = P("PPRIOR", 300),
+         mid = P("PMID", 16.5), width = P("PWIDTH", 4), l0 = P("PL0", 3), l1 = P("PL1", 1.8), lmax = P("PLMAX", 60),
          kprior = P("PKPRIOR", 5), emin = P("PEMIN", 0.01), emax = P("PEMAX", 0.9), forget = P("PFORGET", 0.995), ks=P("PKS",0.99),
-         ref0 = P("PREF0", 40), dis = P("PDIS", 0.0), wide = P("PWIDE", 0.5);
+         ref0 = P("PREF0", 30), dis = P("PDIS", 0.4), wide = P("PWIDE", 0.5);
 } pars;
 }  // namespace
 
