@@ -37,7 +37,7 @@ struct SignalObservation {
   std::int8_t glonass_channel = kUnknownGlonassChannel;
   std::uint32_t present = 0;  // ObservationField bits
   std::uint32_t flags = 0;    // ObservationFlag bits
-  double frequency_hz = 0.0;  // carrier
+  double frequency_hz = 0.0;  // carrier; 0 if not known (GLONASS without a channel)
 
   double pseudorange_m = 0.0;         // c (reception - transmission), receiver clock included
   double carrier_phase_cycles = 0.0;  // grows with the range, arbitrary origin
