@@ -357,9 +357,7 @@ typedef struct lodemark_observation_epoch {
 #define LODEMARK_OBSERVATION_HAS_GLONASS_CHANNEL 0x80u
 
 /* Bits of lodemark_observation.flags. */
-#define LODEMARK_OBSERVATION_LOSS_OF_LOCK                 \
-  0x1u /* the phase may have slipped since the last epoch \
-        */
+#define LODEMARK_OBSERVATION_LOSS_OF_LOCK 0x1u         /* the phase may have slipped */
 #define LODEMARK_OBSERVATION_HALF_CYCLE_AMBIGUOUS 0x2u /* or be off by half a cycle */
 #define LODEMARK_OBSERVATION_MULTIPATH_DETECTED 0x4u
 
