@@ -78,8 +78,8 @@ void TurnGeostationary(double rotation_radps, double since_toe_s, BroadcastState
       velocity + rotation_radps * Eigen::Vector3d(position.y(), -position.x(), 0.0);
 }
 
-// GLONASS ICD L1, L2 edition 5.1 (2008) table 3.2 and appendix 3.
-constexpr double kGlonassGm_m3ps2 = 398'600.4418e9;
+// GLONASS ICD L1, L2 edition 5.1 (2008) A.3.1.2.
+constexpr double kGlonassGm_m3ps2 = 398'600.44e9;
 constexpr double kGlonassRadius_m = 6'378'136.0;
 constexpr double kGlonassJ2 = 1'082'625.75e-9;
 constexpr double kGlonassRotation_radps = 7.292115e-5;

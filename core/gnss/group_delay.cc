@@ -86,7 +86,7 @@ double BeidouCorrection(SignalCode signal, ClockSource source, const GroupDelays
     }
     case '7':
       if (IsOneOf(signal.attribute, "DPZ")) {
-        return b3i_s - (d.tgd_b2bi_s ? *d.tgd_b2bi_s : OrZero(d.tgd2_s));
+        return b3i_s - OrZero(d.tgd_b2bi_s);
       }
       return b3i_s - OrZero(d.tgd2_s);
     default:

@@ -202,7 +202,7 @@ TEST(StateOrbit, ConservesEnergyInTheOblateField) {
     const double j2_term =
         1'082'625.75e-9 * std::pow(6'378'136.0 / radius_m, 2) * (1.0 - 3.0 * sine * sine) / 2.0;
     return 0.5 * InertialVelocity(state, 7.292115e-5).squaredNorm() -
-           398'600.4418e9 / radius_m * (1.0 + j2_term);
+           398'600.44e9 / radius_m * (1.0 + j2_term);
   };
   const double start = energy(set.toe_gps_ns);
   for (int minutes = -31; minutes <= 31; ++minutes) {

@@ -66,6 +66,7 @@ TEST(SatelliteOrbits, GrowsTooOld) {
   orbits.Add(FullSet(kGps5, MessageType::kLnav));
   orbits.Add(FullSet({System::kGalileo, 5}, MessageType::kInav));
   orbits.Add(FullSet({System::kBeidou, 25}, MessageType::kD1));
+  orbits.Add(FullSet({System::kQzss, 2}, MessageType::kLnav));
   orbits.Add(GlonassSet(3));
   struct Case {
     SatelliteId satellite;
@@ -74,7 +75,8 @@ TEST(SatelliteOrbits, GrowsTooOld) {
   SatelliteState state;
   for (const Case& c :
        {Case{kGps5, 150 * kMinute_ns}, Case{{System::kGalileo, 5}, 4 * kHour_ns},
-        Case{{System::kBeidou, 25}, 2 * kHour_ns}, Case{{System::kGlonass, 3}, 30 * kMinute_ns}}) {
+        Case{{System::kBeidou, 25}, 150 * kMinute_ns}, Case{{System::kQzss, 2}, 90 * kMinute_ns},
+        Case{{System::kGlonass, 3}, 30 * kMinute_ns}}) {
     for (const int sign : {-1, 1}) {
       EXPECT_EQ(orbits.AtTime(c.satellite, kL1, kSceneToe_ns + sign * c.limit_ns, 0.0, &state),
                 OrbitVerdict::kGood);
