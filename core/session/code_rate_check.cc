@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "core/base/units.h"
 
@@ -14,7 +13,8 @@ constexpr double kLongestGap_s = 1.5;
 
 constexpr double kUnknown = 1e99;
 
-const int kLongestMemory = getenv("PMEM")?atoi(getenv("PMEM")):8;
+// Epochs over which a range is followed.
+constexpr int kLongestMemory = 10;
 
 }  // namespace
 

@@ -18,6 +18,10 @@ constexpr double kUnstatedOrbitSigma_m = 1.0;
 constexpr double kUraShare = 0.4;
 constexpr double kPreciseOrbitSigma_m = 0.1;
 
+// What an ionosphere model leaves is mostly common to all satellites and goes into the receiver
+// clock; this share of its sigma differs between them.
+constexpr double kIonosphereOwnShare = 0.4;
+
 // Turns a vector by the earth's rotation during the flight of the signal.
 Eigen::Vector3d RotateByFlight(const Eigen::Vector3d& vector, double flight_s) {
   const double angle = kEarthRotation_radps * flight_s;
@@ -188,6 +192,7 @@ void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d&
       }
       delay_m += ionosphere.Delay(place, place_in_ecef, prepared.satellite_in_ecef, look,
                                   epoch.time_gps_ns, prepared.frequency_hz, &ionosphere_sigma_m, kind);
+      ionosphere_sigma_m *= kIonosphereOwnShare;
     }
     if (options_.troposphere != TroposphereChoice::kNone) {
       delay_m += TroposphereDelay(place, look.elevation_rad, epoch.time_gps_ns,

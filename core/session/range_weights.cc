@@ -2,17 +2,53 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace lodemark {
 namespace {
-double P(const char* n, double d) { const char* e = std::getenv(n); return e ? std::atof(e) : d; }
-struct Pars {
-  double a = P("PA", 2.0), b = P("PB", 2.3), e0 = P("PE0", 0.9), prior = P("PPRIOR", 300),
-         mid = P("PMID", 16.5), width = P("PWIDTH", 4), l0 = P("PL0", 3), l1 = P("PL1", 1.8), lmax = P("PLMAX", 60),
-         kprior = P("PKPRIOR", 5), emin = P("PEMIN", 0.01), emax = P("PEMAX", 0.9), forget = P("PFORGET", 0.995), ks=P("PKS",0.99),
-         ref0 = P("PREF0", 30), dis = P("PDIS", 0.4), wide = P("PWIDE", 0.5);
-} pars;
+
+// Values below describe phones and single-frequency modules in open, suburban and canyon
+// recordings; one set serves them all, and what past epochs teach moves each receiver from it.
+
+// Code noise: multipath that even strong signals have, and thermal noise at 40 dBHz.
+constexpr double kMultipath_m = 2.0;
+constexpr double kThermalAt40_m = 2.4;
+constexpr double kUsualCn0_dbhz = 40.0;  // of a receiver that reports none
+
+// Codes of ten times the C/A rate see that much less of both.
+constexpr double kWidebandShare = 0.35;
+
+// Variance by elevation beyond what C/N0 already tells: share that grows with 1 / sin^2.
+constexpr double kElevationShare = 0.1;
+constexpr double kSmallestSine = 0.1;
+
+// Chance of a reflection against the deficit in C/N0: even odds at the middle, e times more for
+// every width.
+constexpr double kDeficitMiddle_db = 16.5;
+constexpr double kDeficitWidth_db = 3.5;
+constexpr double kFewestLate = 0.01;
+constexpr double kMostLate = 0.9;
+constexpr double kMultipathReported = 0.2;  // added where the receiver reports multipath
+
+// Mean extra path of a reflection: grows with the deficit, as long ways cost power.
+constexpr double kLateScaleAtNoDeficit_m = 3.0;
+constexpr double kLateScalePerDb_m = 1.8;
+constexpr double kSmallestLateScale_m = 8.0;
+constexpr double kLargestLateScale_m = 60.0;
+
+// A receiver whose strongest signal is weaker than this is indoors, not reference.
+constexpr double kLowestReference_dbhz = 30.0;
+constexpr double kReferenceDecay_db = 0.02;  // an epoch
+
+// Share of a disagreement between code and Doppler that counts as code noise, as a variance.
+constexpr double kDisagreementShare = 0.5;
+
+// How many ranges the prior on noise and the prior on reflections are worth, and how fast what
+// was learned fades, an epoch.
+constexpr double kNoisePriorCount = 120.0;
+constexpr double kLatePriorCount = 5.0;
+constexpr double kNoiseFading = 0.995;
+constexpr double kLateFading = 0.99;
+
 }  // namespace
 
 void RangeWeights::NoteStrength(int clock_group, double cn0_dbhz) {
@@ -20,20 +56,36 @@ void RangeWeights::NoteStrength(int clock_group, double cn0_dbhz) {
   group.strongest_dbhz = std::max(group.strongest_dbhz, cn0_dbhz);
 }
 
+double RangeWeights::NoiseFactor(int clock_group) const {
+  const Group& group = groups_[static_cast<std::size_t>(clock_group)];
+  return (kNoisePriorCount + group.squares) / (kNoisePriorCount + group.count);
+}
+
 RangeErrorModel RangeWeights::ErrorModel(int clock_group, const SignalQuality& quality) const {
   const Group& group = groups_[static_cast<std::size_t>(clock_group)];
-  const double cn0_dbhz = quality.cn0_dbhz > 0.0 ? quality.cn0_dbhz : 40.0;
-  const double sine = std::max(std::sin(quality.elevation_rad), 0.1);
-  const double noise_m = pars.b * std::pow(10.0, (40.0 - cn0_dbhz) / 20.0);
-  const double wide = quality.wideband ? pars.wide : 1.0;
-  const double noise_variance = wide * wide * (pars.a * pars.a + noise_m * noise_m) * (pars.e0 + (1 - pars.e0) / (sine * sine));
-  const double factor = (pars.prior + group.squares) / (pars.prior + group.count);
+  const double cn0_dbhz = quality.cn0_dbhz > 0.0 ? quality.cn0_dbhz : kUsualCn0_dbhz;
+  const double sine = std::max(std::sin(quality.elevation_rad), kSmallestSine);
+  const double thermal_m = kThermalAt40_m * std::pow(10.0, (40.0 - cn0_dbhz) / 20.0);
+  const double share = quality.wideband ? kWidebandShare : 1.0;
+  const double noise_variance_m2 =
+      NoiseFactor(clock_group) * share * share *
+      (kMultipath_m * kMultipath_m + thermal_m * thermal_m) *
+      (1.0 - kElevationShare + kElevationShare / (sine * sine));
   RangeErrorModel model;
-  model.sigma_m = std::sqrt(factor * noise_variance + quality.model_sigma_m * quality.model_sigma_m + pars.dis * quality.rate_disagreement_m * quality.rate_disagreement_m);
-  const double deficit = std::max(0.0, std::max(group.strongest_dbhz, pars.ref0) - cn0_dbhz);
-  const double odds = std::exp((deficit - pars.mid) / pars.width) * (pars.kprior + late_found_) / (pars.kprior + late_expected_);
-  model.late_probability = std::clamp(odds / (1.0 + odds), pars.emin, pars.emax);
-  model.late_scale_m = std::clamp(pars.l0 + pars.l1 * deficit, 8.0, pars.lmax);
+  model.sigma_m =
+      std::sqrt(noise_variance_m2 + quality.model_sigma_m * quality.model_sigma_m +
+                kDisagreementShare * quality.rate_disagreement_m * quality.rate_disagreement_m);
+
+  const double deficit_db =
+      std::max(0.0, std::max(group.strongest_dbhz, kLowestReference_dbhz) - cn0_dbhz);
+  const double odds = std::exp((deficit_db - kDeficitMiddle_db) / kDeficitWidth_db) *
+                      (kLatePriorCount + late_found_) / (kLatePriorCount + late_expected_);
+  model.late_probability = std::clamp(odds / (1.0 + odds), kFewestLate, kMostLate);
+  if (quality.multipath_reported) {
+    model.late_probability = std::min(kMostLate, model.late_probability + kMultipathReported);
+  }
+  model.late_scale_m = std::clamp(kLateScaleAtNoDeficit_m + kLateScalePerDb_m * deficit_db,
+                                  kSmallestLateScale_m, kLargestLateScale_m);
   return model;
 }
 
@@ -41,8 +93,7 @@ void RangeWeights::Learn(int clock_group, const RangeErrorModel& model, double r
                          double redundancy_share, double core_share, double late_share) {
   Group& group = groups_[static_cast<std::size_t>(clock_group)];
   const double u = residual_m / model.sigma_m;
-  const double factor = (pars.prior + group.squares) / (pars.prior + group.count);
-  group.squares += core_share * u * u * factor;
+  group.squares += core_share * u * u * NoiseFactor(clock_group);
   group.count += core_share * redundancy_share;
   late_found_ += late_share;
   late_expected_ += model.late_probability;
@@ -50,12 +101,12 @@ void RangeWeights::Learn(int clock_group, const RangeErrorModel& model, double r
 
 void RangeWeights::FinishEpoch() {
   for (Group& group : groups_) {
-    group.squares *= pars.forget;
-    group.count *= pars.forget;
-    group.strongest_dbhz = std::max(0.0, group.strongest_dbhz - 0.02);
+    group.squares *= kNoiseFading;
+    group.count *= kNoiseFading;
+    group.strongest_dbhz = std::max(0.0, group.strongest_dbhz - kReferenceDecay_db);
   }
-  late_found_ *= pars.ks;
-  late_expected_ *= pars.ks;
+  late_found_ *= kLateFading;
+  late_expected_ *= kLateFading;
 }
 
 void RangeWeights::Forget() { *this = RangeWeights(); }

@@ -28,6 +28,9 @@ class RangeWeights {
 
   RangeErrorModel ErrorModel(int clock_group, const SignalQuality& quality) const;
 
+  // Variance of the signal's noise against the prior's, as learned.
+  double NoiseFactor(int clock_group) const;
+
   // Learns from one range of an adjusted epoch. redundancy_share: expected square of a normalised
   // residual; core_share and late_share: the posterior over the error model.
   void Learn(int clock_group, const RangeErrorModel& model, double residual_m,
