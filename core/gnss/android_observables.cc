@@ -113,10 +113,14 @@ std::int64_t AndroidObservables::CurrentTime(const AndroidClock& clock) const {
 }
 
 void AndroidObservables::Hold(const AndroidClock& clock) {
-  const double fraction_ns = -BiasFraction(clock);
-  const double whole_ns = std::floor(fraction_ns);
+  const double less_ns = -BiasFraction(clock);
+  double whole_ns = std::floor(less_ns);
+  held_fraction_ns_ = less_ns - whole_ns;
+  if (held_fraction_ns_ >= 1.0) {  // a negative hair below zero rounds up
+    held_fraction_ns_ = 0.0;
+    whole_ns += 1.0;
+  }
   held_bias_ns_ = clock.full_bias_ns - correction_ns_ - static_cast<std::int64_t>(whole_ns);
-  held_fraction_ns_ = fraction_ns - whole_ns;
   holding_ = true;
   ++hold_count_;
 }

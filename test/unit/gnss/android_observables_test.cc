@@ -100,6 +100,15 @@ TEST(AndroidObservables, CarriesTheBiasFractionInTagAndRange) {
   EXPECT_NEAR(result.range_m(), LightMeters(kTravel_ns - 0.25), 1e-4);
 }
 
+TEST(AndroidObservables, KeepsTheFractionBelowOneForAHairOfBias) {
+  AndroidScene scene(kTime_gps_ns);
+  scene.epoch.clock.present |= kClockHasBias;
+  scene.epoch.clock.bias_ns = 1e-20;
+  const Converted result = ConvertFresh(scene);
+  EXPECT_EQ(result.epoch.time_gps_ns, kTime_gps_ns);
+  EXPECT_EQ(result.epoch.time_fraction_ns, 0.0);
+}
+
 TEST(AndroidObservables, RefersRangeAndPhaseToTheEpochNotToTheOffset) {
   AndroidScene scene(kTime_gps_ns);
   AndroidMeasurement& raw = scene.Add(1, 1, kTowState, kTravel_ns);
