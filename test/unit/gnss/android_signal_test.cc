@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <string>
+#include <string_view>
 
 #include "core/base/units.h"
 #include "core/gnss/android_signal_time.h"
@@ -26,11 +27,12 @@ std::string NameOf(const AndroidMeasurement& raw, const GlonassChannels& channel
   return SatelliteName(signal.satellite) + " " + signal.signal.band + signal.signal.attribute;
 }
 
-AndroidMeasurement OnCarrier(AndroidMeasurement raw, double frequency_hz, const char* code = "") {
+AndroidMeasurement OnCarrier(AndroidMeasurement raw, double frequency_hz,
+                             std::string_view code = "") {
   raw.carrier_frequency_hz = frequency_hz;
   raw.present |= kMeasurementHasCarrierFrequency;
-  if (*code != '\0') {
-    std::strncpy(raw.code_type, code, sizeof(raw.code_type) - 1);
+  if (!code.empty()) {
+    code.copy(raw.code_type, sizeof(raw.code_type) - 1);
     raw.present |= kMeasurementHasCodeType;
   }
   return raw;
