@@ -10,5 +10,6 @@ namespace lodemark {
 
 void AddCompareCommand(CLI::App& app, int* exit_code);
 void AddReportCommand(CLI::App& app, int* exit_code);
+void AddSimulateCommand(CLI::App& app, int* exit_code);
 
 }  // namespace lodemark

@@ -1,0 +1,42 @@
+// Where the simulated receiver is at any time: at rest, or on a smooth way along corners.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "tools/simulator/scenario.h"
+
+namespace lodemark {
+
+struct ReceiverState {
+  Eigen::Vector3d position_in_enu = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_in_enu = Eigen::Vector3d::Zero();
+  double heading_rad = 0.0;  // clockwise from north
+  double turn_rate_radps = 0.0;
+};
+
+// Corners are rounded, and walking starts and ends gently, so position and velocity are continuous.
+class ReceiverPath {
+ public:
+  explicit ReceiverPath(const Scenario& scenario);
+
+  // In the local frame of Scenario::place, seconds after the start. Past the last corner it stands.
+  ReceiverState At(double time_s) const;
+
+ private:
+  // A straight stretch or, with a radius, an arc.
+  struct Piece {
+    double begin_m = 0.0;  // way from the start
+    double length_m = 0.0;
+    Eigen::Vector2d from = Eigen::Vector2d::Zero();
+    double heading_rad = 0.0;   // at its begin
+    double curvature_pm = 0.0;  // positive to the right
+  };
+
+  std::vector<Piece> pieces_;
+  double length_m_ = 0.0;
+  double speed_mps_;
+  double pause_s_;
+};
+
+}  // namespace lodemark
