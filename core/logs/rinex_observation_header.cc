@@ -99,10 +99,13 @@ void RinexObservationHeaderParser::ParseRecord(std::string_view line, std::int64
   const bool version2 = header_.version < 3.0;
   bool good = true;
   if (label == "SYS / # / OBS TYPES" && !version2) {
+    types_changed_ = true;
     good = ParseTypes(line);
   } else if (label.starts_with("# / TYPES OF OBSERV") && version2) {
+    types_changed_ = true;
     good = ParseRinex2Types(line);
   } else if (label == "SYS / SCALE FACTOR") {
+    types_changed_ = true;
     good = ParseScaleFactor(line);
   } else if (label == "GLONASS SLOT / FRQ #") {
     good = ParseGlonassSlots(line);
@@ -123,7 +126,8 @@ void RinexObservationHeaderParser::ParseRecord(std::string_view line, std::int64
 void RinexObservationHeaderParser::Finish() {
   types_system_.reset();
   scale_system_.reset();
-  SettleTypes();
+  if (types_changed_) SettleTypes();
+  types_changed_ = false;
 }
 
 const RinexRecordLayout& RinexObservationHeaderParser::layout(System system) const {

@@ -73,6 +73,7 @@ class RinexObservationHeaderParser {
   std::optional<System> scale_system_;
   double scale_divisor_ = 1.0;
   bool strength_in_dbhz_ = true;
+  bool types_changed_ = true;  // since the layouts were made
   std::array<RinexRecordLayout, kSystemCount> layouts_;
 };
 

@@ -136,10 +136,11 @@ void RinexObservationWriter::Write(const ObservationEpoch& epoch) {
     }
     sorted_.push_back(&signal);
   }
-  std::stable_sort(sorted_.begin(), sorted_.end(),
-                   [](const SignalObservation* a, const SignalObservation* b) {
-                     return OrderOf(*a) < OrderOf(*b);
-                   });
+  std::sort(sorted_.begin(), sorted_.end(),
+            [](const SignalObservation* a, const SignalObservation* b) {
+              // Of equal ones, the first of the epoch comes first.
+              return std::tuple(OrderOf(*a), a) < std::tuple(OrderOf(*b), b);
+            });
   int satellite_count = 0;
   for (std::size_t i = 0; i < sorted_.size(); ++i) {
     if (i == 0 || sorted_[i]->satellite != sorted_[i - 1]->satellite) ++satellite_count;
