@@ -38,7 +38,7 @@ std::optional<Window> FindWindow(const std::vector<PreciseSample>& samples,
   const std::int64_t end_ns = samples[before + 1].time_gps_ns;
   const std::int64_t spacing_ns = end_ns - begin_ns;
   if (spacing_ns <= 0 || spacing_ns > kLargestSpacing_ns) return std::nullopt;
-  if (time_gps_ns < begin_ns - spacing_ns || time_gps_ns > end_ns + spacing_ns) return std::nullopt;
+  if (time_gps_ns < begin_ns || time_gps_ns > end_ns) return std::nullopt;
   if (!Continues(samples, before, spacing_ns)) return std::nullopt;
 
   std::size_t first = before;

@@ -34,8 +34,11 @@ struct PreciseState {
   double clock_drift_sps = 0.0;
 };
 
-// Polynomial interpolation of the positions, linear of the clocks, at time_gps_ns + fraction_s.
-// Empty where the table does not reach, has a gap or a manoeuvre, or lacks the clock.
+// Polynomial interpolation of the positions through eleven samples, as nearly centred as the table
+// allows, and linear interpolation of the clocks, at time_gps_ns + fraction_s. Empty where the
+// table does not reach, has a gap or a manoeuvre within the samples it needs, or lacks the clock.
+// It never extrapolates: one interval beyond its end the polynomial makes a metre of a millimetre's
+// rounding.
 std::optional<PreciseState> InterpolatePrecise(const std::vector<PreciseSample>& samples,
                                                std::int64_t time_gps_ns, double fraction_s);
 

@@ -73,18 +73,13 @@ TEST(InterpolatePrecise, GivesTheSamplesThemselves) {
   }
 }
 
-TEST(InterpolatePrecise, ReachesOneIntervalBeyondTheTableAndNoFarther) {
+TEST(InterpolatePrecise, EndsWithTheTable) {
   const std::vector<PreciseSample> table = Table(15, kFiveMinutes_ns);
   const std::int64_t end_ns = table.back().time_gps_ns;
-  EXPECT_TRUE(InterpolatePrecise(table, end_ns + kFiveMinutes_ns, 0.0).has_value());
-  EXPECT_FALSE(InterpolatePrecise(table, end_ns + kFiveMinutes_ns + 1, 0.0).has_value());
-  EXPECT_TRUE(InterpolatePrecise(table, kStart_ns - kFiveMinutes_ns, 0.0).has_value());
-  EXPECT_FALSE(InterpolatePrecise(table, kStart_ns - kFiveMinutes_ns - 1, 0.0).has_value());
-  const std::int64_t last_ns = end_ns + kFiveMinutes_ns;
-  EXPECT_LT((InterpolatePrecise(table, last_ns, 0.0)->position_in_ecef -
-             KeplerState(Orbit(), last_ns, 0.0).position_in_ecef)
-                .norm(),
-            1e-3);
+  EXPECT_TRUE(InterpolatePrecise(table, kStart_ns, 0.0).has_value());
+  EXPECT_TRUE(InterpolatePrecise(table, end_ns, 0.0).has_value());
+  EXPECT_FALSE(InterpolatePrecise(table, kStart_ns - 1, 0.0).has_value());
+  EXPECT_FALSE(InterpolatePrecise(table, end_ns + 1, 0.0).has_value());
 }
 
 TEST(InterpolatePrecise, NeedsElevenSamplesInARow) {
