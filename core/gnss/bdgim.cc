@@ -5,6 +5,7 @@
 #include "core/base/units.h"
 #include "core/geo/time.h"
 #include "core/gnss/ionosphere.h"
+#include "core/gnss/pierce_point.h"
 
 namespace lodemark {
 namespace {
@@ -59,18 +60,17 @@ constexpr double kAmplitudes_tecu[17][25] = {
 };
 
 // Spherical harmonics up to degree 5, normalised, of a point in the geomagnetic frame that turns
-// with the sun. Only the degrees and orders that the model uses.
+// with the sun, given by the sine of its latitude and cosine and sine of its longitude. Only the
+// degrees and orders that the model uses.
 struct Harmonics {
   std::array<double, 9> broadcast = {};   // 0/0, 1/0, 1/1, 1/-1, 2/0, 2/1, 2/-1, 2/2, 2/-2
   std::array<double, 17> predicted = {};  // as kAmplitudes_tecu
 };
 
-Harmonics HarmonicsAt(double sin_latitude, double longitude_rad) {
+Harmonics HarmonicsAt(double sin_latitude, double cos1, double sin1) {
   const double s = sin_latitude;
   const double s2 = s * s;
   const double c = std::sqrt(std::max(1.0 - s2, 0.0));
-  const double cos1 = std::cos(longitude_rad);
-  const double sin1 = std::sin(longitude_rad);
   const double cos2 = cos1 * cos1 - sin1 * sin1;
   const double sin2 = 2.0 * cos1 * sin1;
   const double cos3 = cos2 * cos1 - sin2 * sin1;
@@ -128,39 +128,35 @@ BdgimPrediction PredictBdgim(std::int64_t time_gps_ns) {
 double BdgimDelay(const BdgimParameters& parameters, const BdgimPrediction& prediction,
                   const Geodetic& receiver, const LookAngles& satellite, std::int64_t time_gps_ns,
                   double frequency_hz) {
-  // The pierce point, first in the geographic frame.
-  const double elevation_rad = std::max(satellite.elevation_rad, 0.0);
-  const double sin_zenith = kEarthOverShell * std::cos(elevation_rad);
-  const double earth_angle_rad = kPi / 2.0 - elevation_rad - std::asin(sin_zenith);
-  const double sin_angle = std::sin(earth_angle_rad);
-  const double cos_angle = std::cos(earth_angle_rad);
-  const double sin_receiver = std::sin(receiver.latitude_rad);
-  const double cos_receiver = std::cos(receiver.latitude_rad);
-  const double sin_pierce = std::clamp(
-      sin_receiver * cos_angle + cos_receiver * sin_angle * std::cos(satellite.azimuth_rad), -1.0,
-      1.0);
-  const double cos_pierce = std::sqrt(1.0 - sin_pierce * sin_pierce);
-  const double pierce_longitude_rad =
-      receiver.longitude_rad +
-      std::atan2(sin_angle * std::sin(satellite.azimuth_rad) * cos_receiver,
-                 cos_angle - sin_receiver * sin_pierce);
+  const PiercePoint pierce =
+      PierceThinShell(receiver, satellite, kEarthOverShell, BeyondPole::kThere);
 
-  // Then in the geomagnetic frame, its longitude counted from the sun.
+  // Latitude and longitude in the geomagnetic frame. The longitude's cosine and sine stand over a
+  // common factor, the cosines of the pole's latitude and the point's.
   const double sin_pole = std::sin(kPoleLatitude_rad);
   const double cos_pole = std::cos(kPoleLatitude_rad);
-  const double from_pole_rad = pierce_longitude_rad - kPoleLongitude_rad;
+  const double cos_pole_longitude = std::cos(kPoleLongitude_rad);
+  const double sin_pole_longitude = std::sin(kPoleLongitude_rad);
+  const Eigen::Vector3d& d = pierce.direction;
   const double sin_geomagnetic = std::clamp(
-      sin_pole * sin_pierce + cos_pole * cos_pierce * std::cos(from_pole_rad), -1.0, 1.0);
-  const double geomagnetic_longitude_rad = std::atan2(
-      cos_pierce * std::sin(from_pole_rad) * cos_pole, sin_pole * sin_geomagnetic - sin_pierce);
+      cos_pole * (d.x() * cos_pole_longitude + d.y() * sin_pole_longitude) + sin_pole * d.z(), -1.0,
+      1.0);
+  const double east = cos_pole * (d.y() * cos_pole_longitude - d.x() * sin_pole_longitude);
+  const double north = sin_pole * sin_geomagnetic - d.z();
+  const double factor = std::max(std::sqrt(east * east + north * north), 1e-12);
+
+  // Less the longitude of the mean sun in that frame.
   const std::int64_t time_bdt_ns = ScaleFromGps(time_gps_ns, TimeScale::kBeidou);
   const double day_fraction =
       static_cast<double>(FloorModulo(time_bdt_ns, kDay_ns)) / static_cast<double>(kDay_ns);
   const double sun_rad = kPi * (1.0 - 2.0 * day_fraction) - kPoleLongitude_rad;
-  const double sun_longitude_rad = std::atan2(std::sin(sun_rad), sin_pole * std::cos(sun_rad));
-
+  const double sun_east = std::sin(sun_rad);
+  const double sun_north = sin_pole * std::cos(sun_rad);
+  const double both = factor * std::sqrt(sun_east * sun_east + sun_north * sun_north);
   const Harmonics harmonics =
-      HarmonicsAt(sin_geomagnetic, geomagnetic_longitude_rad - sun_longitude_rad);
+      HarmonicsAt(sin_geomagnetic, (north * sun_north + east * sun_east) / both,
+                  (east * sun_north - north * sun_east) / both);
+
   double content_tecu = 0.0;
   for (std::size_t i = 0; i < harmonics.broadcast.size(); ++i) {
     content_tecu += parameters.alpha[i] * harmonics.broadcast[i];
@@ -168,7 +164,7 @@ double BdgimDelay(const BdgimParameters& parameters, const BdgimPrediction& pred
   for (std::size_t j = 0; j < harmonics.predicted.size(); ++j) {
     content_tecu += prediction.beta[j] * harmonics.predicted[j];
   }
-  const double slant = 1.0 / std::sqrt(1.0 - sin_zenith * sin_zenith);
+  const double slant = 1.0 / std::sqrt(1.0 - pierce.sin_zenith * pierce.sin_zenith);
   return std::max(content_tecu, 0.0) * slant * kDelayPerTecu / (frequency_hz * frequency_hz);
 }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/units.h"
+#include "core/geo/time.h"
+
 namespace lodemark {
 namespace {
 
@@ -101,6 +104,15 @@ IonosphereModel::Kind IonosphereModel::Best() const {
   return Kind::kClimatology;
 }
 
+const NtcmGSeason& IonosphereModel::SeasonAt(std::int64_t time_gps_ns) const {
+  if (time_gps_ns >= ntcm_season_until_gps_ns_ ||
+      time_gps_ns < ntcm_season_until_gps_ns_ - kDay_ns) {
+    ntcm_season_ = SeasonOfNtcmG(time_gps_ns);
+    ntcm_season_until_gps_ns_ = GpsFromScale((ntcm_season_.day + 1) * kDay_ns, TimeScale::kUtc);
+  }
+  return ntcm_season_;
+}
+
 double IonosphereModel::Delay(const Geodetic& receiver, const Eigen::Vector3d&,
                               const Eigen::Vector3d&, const LookAngles& satellite,
                               std::int64_t time_gps_ns, double frequency_hz, double* sigma_m,
@@ -122,10 +134,12 @@ double IonosphereModel::Delay(const Geodetic& receiver, const Eigen::Vector3d&,
           BdgimDelay(*bdgim_, bdgim_prediction_, receiver, satellite, time_gps_ns, frequency_hz);
       break;
     case Kind::kNtcmG:
-      delay_m = NtcmGDelay(*galileo_, receiver, satellite, time_gps_ns, frequency_hz);
+      delay_m = NtcmGDelay(*galileo_, SeasonAt(time_gps_ns), receiver, satellite, time_gps_ns,
+                           frequency_hz);
       break;
     case Kind::kClimatology:
-      delay_m = NtcmGDelay(kMeanSun, receiver, satellite, time_gps_ns, frequency_hz);
+      delay_m = NtcmGDelay(kMeanSun, SeasonAt(time_gps_ns), receiver, satellite, time_gps_ns,
+                           frequency_hz);
       break;
   }
   if (sigma_m != nullptr) {

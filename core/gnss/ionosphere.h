@@ -31,14 +31,25 @@ double BdgimDelay(const BdgimParameters& parameters, const BdgimPrediction& pred
                   const Geodetic& receiver, const LookAngles& satellite, std::int64_t time_gps_ns,
                   double frequency_hz);
 
+// What of NTCM-G is the same for a whole day of UTC.
+struct NtcmGSeason {
+  std::int64_t day = -1;  // of UTC since 1980-01-06
+  double cos_declination = 1.0;
+  double sin_declination = 0.0;
+  double factor = 1.0;
+};
+
+NtcmGSeason SeasonOfNtcmG(std::int64_t time_gps_ns);
+
 // NTCM-G driven by Galileo's coefficients (European Commission, NTCM-G Ionospheric Model
-// Description, issue 1.0, 2022). Never negative.
-double NtcmGDelay(const GalileoIonosphereParameters& parameters, const Geodetic& receiver,
-                  const LookAngles& satellite, std::int64_t time_gps_ns, double frequency_hz);
+// Description, issue 1.0, 2022). Never negative. season is that of the time.
+double NtcmGDelay(const GalileoIonosphereParameters& parameters, const NtcmGSeason& season,
+                  const Geodetic& receiver, const LookAngles& satellite, std::int64_t time_gps_ns,
+                  double frequency_hz);
 
 // The best of what was received, and a climatological default when nothing was: NTCM-G at a solar
 // flux that is the mean over a solar cycle. One session's object: Delay keeps what it computes for
-// two hours at a time, so it is not to be shared between threads.
+// two hours or a day at a time, so it is not to be shared between threads.
 class IonosphereModel {
  public:
   enum class Kind : std::uint8_t { kNone, kKlobuchar, kBdgim, kNtcmG, kClimatology };
@@ -67,7 +78,11 @@ class IonosphereModel {
   std::optional<KlobucharParameters> regional_klobuchar_;  // QZSS, NavIC
   std::optional<GalileoIonosphereParameters> galileo_;
   std::optional<BdgimParameters> bdgim_;
+  const NtcmGSeason& SeasonAt(std::int64_t time_gps_ns) const;
+
   mutable BdgimPrediction bdgim_prediction_;
+  mutable NtcmGSeason ntcm_season_;
+  mutable std::int64_t ntcm_season_until_gps_ns_ = 0;  // from a day before
 };
 
 }  // namespace lodemark

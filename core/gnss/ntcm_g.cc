@@ -5,6 +5,7 @@
 #include "core/base/units.h"
 #include "core/geo/time.h"
 #include "core/gnss/ionosphere.h"
+#include "core/gnss/pierce_point.h"
 
 namespace lodemark {
 namespace {
@@ -27,80 +28,82 @@ double EffectiveIonisation(const std::array<double, 3>& a) {
   return std::sqrt(std::max(square, 0.0));
 }
 
-struct PiercePoint {
-  double latitude_rad = 0.0;
-  double longitude_rad = 0.0;
-};
-
-// Equations 24 to 26.
-PiercePoint PierceOf(const Geodetic& receiver, const LookAngles& satellite) {
-  const double earth_angle_rad = kPi / 2.0 - satellite.elevation_rad -
-                                 std::asin(kEarthOverShell * std::cos(satellite.elevation_rad));
-  const double sin_angle = std::sin(earth_angle_rad);
-  PiercePoint pierce;
-  pierce.latitude_rad = std::asin(
-      std::clamp(std::sin(receiver.latitude_rad) * std::cos(earth_angle_rad) +
-                     std::cos(receiver.latitude_rad) * sin_angle * std::cos(satellite.azimuth_rad),
-                 -1.0, 1.0));
-  const double sin_step =
-      sin_angle * std::sin(satellite.azimuth_rad) / std::max(std::cos(pierce.latitude_rad), 1e-9);
-  pierce.longitude_rad = receiver.longitude_rad + std::asin(std::clamp(sin_step, -1.0, 1.0));
-  return pierce;
-}
-
 // Equations 3 to 15, 27 to 31. TECu at the pierce point.
-double VerticalContent(double ionisation, const PiercePoint& pierce, double utc_h,
-                       double day_of_year) {
-  const double local_h = utc_h + pierce.longitude_rad * kDegreesPerRadian / 15.0;
-  const double diurnal = 2.0 * kPi * (local_h - 14.0) / 24.0;
-  const double semidiurnal = 2.0 * kPi * local_h / 12.0;
-  const double terdiurnal = 2.0 * kPi * local_h / 8.0;
-  const double declination_rad =
-      23.44 * kRadiansPerDegree * std::sin(0.9856 * (day_of_year - 80.7) * kRadiansPerDegree);
-  const double cos_zenith = std::cos(pierce.latitude_rad - declination_rad);
-  const double day_part = cos_zenith - 2.0 / kPi * pierce.latitude_rad * std::sin(declination_rad);
-  const double f1 = cos_zenith + 0.4 +
-                    day_part * (kK[1] * std::cos(diurnal) + kK[2] * std::cos(semidiurnal) +
-                                kK[3] * std::sin(semidiurnal) + kK[4] * std::cos(terdiurnal) +
-                                kK[5] * std::sin(terdiurnal));
+double VerticalContent(double ionisation, const Eigen::Vector3d& pierce, double utc_h,
+                       const NtcmGSeason& season) {
+  const double sin_latitude = std::clamp(pierce.z(), -1.0, 1.0);
+  const double cos_latitude = std::max(std::hypot(pierce.x(), pierce.y()), 1e-12);
 
-  const double f2 = 1.0 + kK[6] * std::cos(2.0 * kPi * (day_of_year - 18.0) / 365.25) +
-                    kK[7] * std::cos(4.0 * kPi * (day_of_year - 6.0) / 365.25);
+  // The angle of local time from midnight, and twice and three times that.
+  const double utc_rad = 2.0 * kPi * utc_h / 24.0;
+  const double cos_utc = std::cos(utc_rad);
+  const double sin_utc = std::sin(utc_rad);
+  const double cos1 = (pierce.x() * cos_utc - pierce.y() * sin_utc) / cos_latitude;
+  const double sin1 = (pierce.y() * cos_utc + pierce.x() * sin_utc) / cos_latitude;
+  const double cos2 = cos1 * cos1 - sin1 * sin1;
+  const double sin2 = 2.0 * cos1 * sin1;
+  const double cos3 = cos2 * cos1 - sin2 * sin1;
+  const double sin3 = sin2 * cos1 + cos2 * sin1;
+  const double peak_rad = 2.0 * kPi * 14.0 / 24.0;
+  const double diurnal = cos1 * std::cos(peak_rad) + sin1 * std::sin(peak_rad);
 
-  const double sin_geomagnetic = std::sin(pierce.latitude_rad) * std::sin(kPoleLatitude_rad) +
-                                 std::cos(pierce.latitude_rad) * std::cos(kPoleLatitude_rad) *
-                                     std::cos(pierce.longitude_rad - kPoleLongitude_rad);
-  const double geomagnetic_rad = std::asin(std::clamp(sin_geomagnetic, -1.0, 1.0));
-  const double f3 = 1.0 + kK[8] * std::cos(geomagnetic_rad);
+  const double cos_zenith =
+      cos_latitude * season.cos_declination + sin_latitude * season.sin_declination;
+  const double day_part = cos_zenith - 2.0 / kPi * std::asin(sin_latitude) * season.sin_declination;
+  const double f1 =
+      cos_zenith + 0.4 +
+      day_part * (kK[1] * diurnal + kK[2] * cos2 + kK[3] * sin2 + kK[4] * cos3 + kK[5] * sin3);
+
+  const double sin_geomagnetic =
+      std::clamp(sin_latitude * std::sin(kPoleLatitude_rad) +
+                     std::cos(kPoleLatitude_rad) * (pierce.x() * std::cos(kPoleLongitude_rad) +
+                                                    pierce.y() * std::sin(kPoleLongitude_rad)),
+                 -1.0, 1.0);
+  const double f3 = 1.0 + kK[8] * std::sqrt(1.0 - sin_geomagnetic * sin_geomagnetic);
 
   // The crests of the equatorial anomaly.
-  const double geomagnetic_deg = geomagnetic_rad * kDegreesPerRadian;
+  const double geomagnetic_deg = std::asin(sin_geomagnetic) * kDegreesPerRadian;
   const double f4 = 1.0 + kK[9] * std::exp(-Square((geomagnetic_deg - 16.0) / 12.0) / 2.0) +
                     kK[10] * std::exp(-Square((geomagnetic_deg + 10.0) / 13.0) / 2.0);
 
   const double f5 = kK[11] + kK[12] * ionisation;
-  return f1 * f2 * f3 * f4 * f5;
+  return f1 * season.factor * f3 * f4 * f5;
 }
 
 }  // namespace
 
-double NtcmGDelay(const GalileoIonosphereParameters& parameters, const Geodetic& receiver,
-                  const LookAngles& satellite, std::int64_t time_gps_ns, double frequency_hz) {
+// Equations 8 to 10 and 28.
+NtcmGSeason SeasonOfNtcmG(std::int64_t time_gps_ns) {
   const std::int64_t utc_ns = ScaleFromGps(time_gps_ns, TimeScale::kUtc);
-  const double utc_h = 1e-9 * static_cast<double>(FloorModulo(utc_ns, kDay_ns)) / 3600.0;
-  const CalendarTime calendar = CalendarFromNanoseconds(utc_ns);
+  const CalendarTime calendar = CalendarFromNanoseconds(std::max<std::int64_t>(utc_ns, 0));
   const std::optional<std::int64_t> new_year_ns =
       NanosecondsFromCalendar({calendar.year, 1, 1, 0, 0, 0.0});
+  NtcmGSeason season;
+  season.day = (utc_ns - FloorModulo(utc_ns, kDay_ns)) / kDay_ns;
   const double day_of_year =
-      1.0 + std::floor(static_cast<double>(utc_ns - new_year_ns.value_or(utc_ns)) /
-                       static_cast<double>(kDay_ns));
+      1.0 + static_cast<double>(season.day - new_year_ns.value_or(utc_ns) / kDay_ns);
+  const double declination_rad =
+      23.44 * kRadiansPerDegree * std::sin(0.9856 * (day_of_year - 80.7) * kRadiansPerDegree);
+  season.cos_declination = std::cos(declination_rad);
+  season.sin_declination = std::sin(declination_rad);
+  season.factor = 1.0 + kK[6] * std::cos(2.0 * kPi * (day_of_year - 18.0) / 365.25) +
+                  kK[7] * std::cos(4.0 * kPi * (day_of_year - 6.0) / 365.25);
+  return season;
+}
 
-  LookAngles above = satellite;
-  above.elevation_rad = std::max(above.elevation_rad, 0.0);
-  const double content_tecu = VerticalContent(EffectiveIonisation(parameters.a),
-                                              PierceOf(receiver, above), utc_h, day_of_year);
+double NtcmGDelay(const GalileoIonosphereParameters& parameters, const NtcmGSeason& season,
+                  const Geodetic& receiver, const LookAngles& satellite, std::int64_t time_gps_ns,
+                  double frequency_hz) {
+  const std::int64_t utc_ns = ScaleFromGps(time_gps_ns, TimeScale::kUtc);
+  const double utc_h = 1e-9 * static_cast<double>(FloorModulo(utc_ns, kDay_ns)) / 3600.0;
+  // Equations 24 to 26, the last with an arcsine.
+  const PiercePoint pierce =
+      PierceThinShell(receiver, satellite, kEarthOverShell, BeyondPole::kMirrored);
+  const double content_tecu =
+      VerticalContent(EffectiveIonisation(parameters.a), pierce.direction, utc_h, season);
   // Equations 32 and 33.
-  const double sin_zenith = kEarthOverShell * std::sin(0.9782 * (kPi / 2.0 - above.elevation_rad));
+  const double sin_zenith =
+      kEarthOverShell * std::sin(0.9782 * (kPi / 2.0 - std::max(satellite.elevation_rad, 0.0)));
   const double slant = 1.0 / std::sqrt(1.0 - sin_zenith * sin_zenith);
   return std::max(content_tecu, 0.0) * slant * kDelayPerTecu / (frequency_hz * frequency_hz);
 }

@@ -165,7 +165,8 @@ TEST(RecordedAtmosphere, NtcmGIsNearNeQuickG) {
   double sum_nequick_m = 0.0;
   for (const SatelliteTruth& row : ReadTruth()) {
     if (row.system != "GALILEO") continue;
-    const double delay_m = NtcmGDelay(kMessage, kPlace, row.look, row.time_gps_ns, 1575.42e6);
+    const double delay_m = NtcmGDelay(kMessage, SeasonOfNtcmG(row.time_gps_ns), kPlace, row.look,
+                                      row.time_gps_ns, 1575.42e6);
     EXPECT_NEAR(delay_m, row.ionosphere_m[0], 7.0);
     sum_m += delay_m;
     sum_nequick_m += row.ionosphere_m[0];

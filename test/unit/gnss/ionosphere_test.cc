@@ -67,9 +67,9 @@ TEST(NtcmG, GivesTheSlantContentOfItsDocument) {
     const Geodetic satellite =
         Place(c.satellite_latitude_deg, c.satellite_longitude_deg, c.satellite_height_m);
     // Day 105 of a common year is 15 April.
-    const double delay_m =
-        NtcmGDelay({kNtcmLevels[c.level], 0}, receiver, Look(satellite, receiver),
-                   GpsOfUtc(2019, 4, 15, c.hour_utc, 0), kL1_hz);
+    const std::int64_t time_gps_ns = GpsOfUtc(2019, 4, 15, c.hour_utc, 0);
+    const double delay_m = NtcmGDelay({kNtcmLevels[c.level], 0}, SeasonOfNtcmG(time_gps_ns),
+                                      receiver, Look(satellite, receiver), time_gps_ns, kL1_hz);
     const double content_tecu = delay_m * kL1_hz * kL1_hz / 40.3e16;
     EXPECT_NEAR(content_tecu, c.content_tecu, 2e-4) << c.level << " at " << c.hour_utc;
   }
@@ -204,16 +204,22 @@ TEST(IonosphereModel, FallsBackToClimatologyAndCanBeSilenced) {
   EXPECT_EQ(delay_m(Kind::kNone), 0.0);
 }
 
-TEST(IonosphereModel, KeepsItsPredictionOnlyForItsTwoHours) {
+TEST(IonosphereModel, KeepsWhatItComputedOnlyAsLongAsItHolds) {
+  using Kind = IonosphereModel::Kind;
   IonosphereModel kept;
   kept.Add({{}, 0, kActive});
-  for (int hour : {1, 2, 3, 25, 1}) {
-    const std::int64_t time_gps_ns = 2'200 * kWeek_ns + hour * 3600 * kSecond_ns;
+  // The last second of a day of UTC and the first of the next, among others.
+  for (const int second : {3600, 7200, 86'417, 86'418, 90'000, 3600}) {
+    const std::int64_t time_gps_ns = 2'200 * kWeek_ns + second * kSecond_ns;
     IonosphereModel fresh;
     fresh.Add({{}, 0, kActive});
-    const Geodetic place = Place(30.0, 95.0, 0.0);
-    EXPECT_EQ(kept.Delay(place, kUnused, kUnused, {3.0, 0.4}, time_gps_ns, kL1_hz, nullptr),
-              fresh.Delay(place, kUnused, kUnused, {3.0, 0.4}, time_gps_ns, kL1_hz, nullptr));
+    for (const Kind kind : {Kind::kBdgim, Kind::kClimatology}) {
+      const auto delay_m = [&](const IonosphereModel& model) {
+        return model.Delay(Place(30.0, 95.0, 0.0), kUnused, kUnused, {3.0, 0.4}, time_gps_ns,
+                           kL1_hz, nullptr, kind);
+      };
+      EXPECT_EQ(delay_m(kept), delay_m(fresh)) << second;
+    }
   }
 }
 
