@@ -1,11 +1,10 @@
 #include "core/logs/gnss_logger_rows.h"
 
-#include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "core/logs/parse_number.h"
-#include "core/logs/raw_row.h"
 
 namespace lodemark {
 namespace {
@@ -20,175 +19,10 @@ constexpr double kLargestAccuracy_m = 1e8;
 // GnssNavigationMessage.getData(): the longest defined message has 40 bytes.
 constexpr std::size_t kMostMessageBytes = 256;
 
-constexpr std::array<std::string_view, kRowKindCount> kWords = {
-    "Raw",
-    "Fix",
-    "Status",
-    "Nav",
-    "Agc",
-    "UncalAccel",
-    "Accel",
-    "UncalGyro",
-    "Gyro",
-    "UncalMag",
-    "Mag",
-    "OrientationDeg",
-    "GameRotationVector",
-    "Pressure",
-};
-
-enum FixField : int {
-  kFixProvider,
-  kFixLatitude,
-  kFixLongitude,
-  kFixAltitude,
-  kFixSpeed,
-  kFixAccuracy,
-  kFixBearing,
-  kFixUnixTime,
-  kFixSpeedAccuracy,
-  kFixElapsedRealtime,
-  kFixVerticalAccuracy,
-};
-
-constexpr ColumnName kFixNames[] = {
-    {"Provider", kFixProvider},
-    {"LatitudeDegrees", kFixLatitude},
-    {"Latitude", kFixLatitude},
-    {"LongitudeDegrees", kFixLongitude},
-    {"Longitude", kFixLongitude},
-    {"AltitudeMeters", kFixAltitude},
-    {"Altitude", kFixAltitude},
-    {"SpeedMps", kFixSpeed},
-    {"Speed", kFixSpeed},
-    {"AccuracyMeters", kFixAccuracy},
-    {"Accuracy", kFixAccuracy},
-    {"BearingDegrees", kFixBearing},
-    {"Bearing", kFixBearing},
-    {"UnixTimeMillis", kFixUnixTime},
-    {"(UTC)TimeInMs", kFixUnixTime},
-    {"utcTimeMillis", kFixUnixTime},
-    {"SpeedAccuracyMps", kFixSpeedAccuracy},
-    {"elapsedRealtimeNanos", kFixElapsedRealtime},
-    {"VerticalAccuracyMeters", kFixVerticalAccuracy},
-};
-constexpr std::string_view kFixHeader14 =
-    "Fix,Provider,Latitude,Longitude,Altitude,Speed,Accuracy,(UTC)TimeInMs";
-constexpr std::string_view kFixHeader30 =
-    "Fix,Provider,LatitudeDegrees,LongitudeDegrees,AltitudeMeters,SpeedMps,AccuracyMeters,"
-    "BearingDegrees,UnixTimeMillis,SpeedAccuracyMps,BearingAccuracyDegrees,elapsedRealtimeNanos,"
-    "VerticalAccuracyMeters";
-
-enum StatusField : int {
-  kStatusUnixTime,
-  kStatusConstellation,
-  kStatusSvid,
-  kStatusCarrier,
-  kStatusCn0,
-  kStatusAzimuth,
-  kStatusElevation,
-  kStatusUsed,
-};
-
-constexpr ColumnName kStatusNames[] = {
-    {"UnixTimeMillis", kStatusUnixTime},
-    {"ConstellationType", kStatusConstellation},
-    {"Svid", kStatusSvid},
-    {"CarrierFrequencyHz", kStatusCarrier},
-    {"Cn0DbHz", kStatusCn0},
-    {"AzimuthDegrees", kStatusAzimuth},
-    {"ElevationDegrees", kStatusElevation},
-    {"UsedInFix", kStatusUsed},
-};
-constexpr std::string_view kStatusHeader =
-    "Status,UnixTimeMillis,SignalCount,SignalIndex,ConstellationType,Svid,CarrierFrequencyHz,"
-    "Cn0DbHz,AzimuthDegrees,ElevationDegrees,UsedInFix,HasAlmanacData,HasEphemerisData";
-
-enum AgcField : int {
-  kAgcUnixTime,
-  kAgcElapsedRealtime,
-  kAgcDb,
-  kAgcCarrier,
-  kAgcConstellation,
-};
-
-constexpr ColumnName kAgcNames[] = {
-    {"utcTimeMillis", kAgcUnixTime},
-    {"elapsedRealtimeNanos", kAgcElapsedRealtime},
-    {"ChipsetElapsedRealtimeNanos", kAgcElapsedRealtime},
-    {"AgcDb", kAgcDb},
-    {"CarrierFrequencyHz", kAgcCarrier},
-    {"ConstellationType", kAgcConstellation},
-};
-constexpr std::string_view kAgcHeader =
-    "Agc,utcTimeMillis,TimeNanos,LeapSecond,TimeUncertaintyNanos,FullBiasNanos,BiasNanos,"
-    "BiasUncertaintyNanos,DriftNanosPerSecond,DriftUncertaintyNanosPerSecond,"
-    "HardwareClockDiscontinuityCount,AgcDb,CarrierFrequencyHz,ConstellationType";
-
-enum SensorField : int {
-  kSensorUnixTime,
-  kSensorElapsedRealtime,
-  kSensorX,
-  kSensorY,
-  kSensorZ,
-  kSensorW,
-  kSensorBiasX,
-  kSensorBiasY,
-  kSensorBiasZ,
-};
-
-// No two kinds give one name two meanings, so one list serves all.
-constexpr ColumnName kSensorNames[] = {
-    {"utcTimeMillis", kSensorUnixTime},
-    {"elapsedRealtimeNanos", kSensorElapsedRealtime},
-    {"AccelXMps2", kSensorX},
-    {"AccelYMps2", kSensorY},
-    {"AccelZMps2", kSensorZ},
-    {"UncalAccelXMps2", kSensorX},
-    {"UncalAccelYMps2", kSensorY},
-    {"UncalAccelZMps2", kSensorZ},
-    {"BiasXMps2", kSensorBiasX},
-    {"BiasYMps2", kSensorBiasY},
-    {"BiasZMps2", kSensorBiasZ},
-    {"GyroXRadPerSec", kSensorX},
-    {"GyroYRadPerSec", kSensorY},
-    {"GyroZRadPerSec", kSensorZ},
-    {"UncalGyroXRadPerSec", kSensorX},
-    {"UncalGyroYRadPerSec", kSensorY},
-    {"UncalGyroZRadPerSec", kSensorZ},
-    {"DriftXRadPerSec", kSensorBiasX},
-    {"DriftYRadPerSec", kSensorBiasY},
-    {"DriftZRadPerSec", kSensorBiasZ},
-    {"MagXMicroT", kSensorX},
-    {"MagYMicroT", kSensorY},
-    {"MagZMicroT", kSensorZ},
-    {"UncalMagXMicroT", kSensorX},
-    {"UncalMagYMicroT", kSensorY},
-    {"UncalMagZMicroT", kSensorZ},
-    {"BiasXMicroT", kSensorBiasX},
-    {"BiasYMicroT", kSensorBiasY},
-    {"BiasZMicroT", kSensorBiasZ},
-    {"yawDeg", kSensorX},
-    {"rollDeg", kSensorY},
-    {"pitchDeg", kSensorZ},
-    {"x", kSensorX},
-    {"y", kSensorY},
-    {"z", kSensorZ},
-    {"w", kSensorW},
-    {"PressureHpa", kSensorX},
-};
-constexpr std::string_view kVectorHeader = "Accel,utcTimeMillis,elapsedRealtimeNanos,x,y,z";
-constexpr std::string_view kBiasedVectorHeader =
-    "UncalAccel,utcTimeMillis,elapsedRealtimeNanos,x,y,z,BiasXMps2,BiasYMps2,BiasZMps2";
-constexpr std::string_view kQuaternionHeader =
-    "GameRotationVector,utcTimeMillis,elapsedRealtimeNanos,x,y,z,w";
-constexpr std::string_view kPressureHeader = "Pressure,utcTimeMillis,elapsedRealtimeNanos,x";
-
 // What a sensor row holds, and the magnitude beyond which its values are nonsense.
 struct SensorTraits {
   LoggedSensor::Kind kind = LoggedSensor::Kind::kAcceleration;
   int count = 3;
-  bool uncalibrated = false;
   double largest = 0.0;
 };
 
@@ -202,29 +36,21 @@ constexpr double kLargestPressure_hpa = 2e3;
 SensorTraits TraitsOf(RowKind kind) {
   using Kind = LoggedSensor::Kind;
   switch (kind) {
-    case RowKind::kUncalAccel:
-      return {Kind::kAcceleration, 3, true, kLargestAcceleration_mps2};
     case RowKind::kUncalGyro:
-      return {Kind::kTurnRate, 3, true, kLargestTurnRate_radps};
     case RowKind::kGyro:
-      return {Kind::kTurnRate, 3, false, kLargestTurnRate_radps};
+      return {Kind::kTurnRate, 3, kLargestTurnRate_radps};
     case RowKind::kUncalMag:
-      return {Kind::kMagneticField, 3, true, kLargestField_ut};
     case RowKind::kMag:
-      return {Kind::kMagneticField, 3, false, kLargestField_ut};
+      return {Kind::kMagneticField, 3, kLargestField_ut};
     case RowKind::kOrientationDeg:
-      return {Kind::kOrientation, 3, false, kLargestAngle_deg};
+      return {Kind::kOrientation, 3, kLargestAngle_deg};
     case RowKind::kGameRotationVector:
-      return {Kind::kGameRotation, 4, false, kLargestQuaternionPart};
+      return {Kind::kGameRotation, 4, kLargestQuaternionPart};
     case RowKind::kPressure:
-      return {Kind::kPressure, 1, false, kLargestPressure_hpa};
+      return {Kind::kPressure, 1, kLargestPressure_hpa};
     default:
-      return {Kind::kAcceleration, 3, false, kLargestAcceleration_mps2};
+      return {Kind::kAcceleration, 3, kLargestAcceleration_mps2};
   }
-}
-
-bool HasAll(const CsvColumns& columns, std::initializer_list<int> fields) {
-  return std::all_of(fields.begin(), fields.end(), [&](int f) { return columns.Has(f); });
 }
 
 // The next cell of a line, which is shortened by it. Empty when no cell is left.
@@ -241,72 +67,6 @@ std::optional<std::string_view> TakeCell(std::optional<std::string_view>* rest) 
 }
 
 }  // namespace
-
-std::optional<RowKind> RowKindFromWord(std::string_view word) {
-  const auto known = std::find(kWords.begin(), kWords.end(), word);
-  if (known == kWords.end()) return std::nullopt;
-  return static_cast<RowKind>(known - kWords.begin());
-}
-
-std::string_view WordOf(RowKind kind) { return kWords[static_cast<std::size_t>(kind)]; }
-
-std::span<const ColumnName> ColumnNamesOf(RowKind kind) {
-  switch (kind) {
-    case RowKind::kRaw:
-      return RawColumnNames();
-    case RowKind::kFix:
-      return kFixNames;
-    case RowKind::kStatus:
-      return kStatusNames;
-    case RowKind::kNav:
-      return {};
-    case RowKind::kAgc:
-      return kAgcNames;
-    default:
-      return kSensorNames;
-  }
-}
-
-std::string_view DefaultHeader(RowKind kind, int columns) {
-  switch (kind) {
-    case RowKind::kRaw:
-      return DefaultRawHeader(columns);
-    case RowKind::kFix:
-      return columns <= 8 ? kFixHeader14 : kFixHeader30;
-    case RowKind::kStatus:
-      return kStatusHeader;
-    case RowKind::kNav:
-      return {};
-    case RowKind::kAgc:
-      return kAgcHeader;
-    case RowKind::kGameRotationVector:
-      return kQuaternionHeader;
-    case RowKind::kPressure:
-      return kPressureHeader;
-    default:
-      return TraitsOf(kind).uncalibrated ? kBiasedVectorHeader : kVectorHeader;
-  }
-}
-
-bool Suffices(RowKind kind, const CsvColumns& columns) {
-  switch (kind) {
-    case RowKind::kRaw:
-      return HasAll(columns, {kRawTimeNanos, kRawSvid, kRawState, kRawReceivedSvTimeNanos,
-                              kRawConstellationType});
-    case RowKind::kFix:
-      return HasAll(columns, {kFixLatitude, kFixLongitude, kFixUnixTime});
-    case RowKind::kStatus:
-      return HasAll(columns, {kStatusConstellation, kStatusSvid});
-    case RowKind::kNav:
-      return true;
-    case RowKind::kAgc:
-      return HasAll(columns, {kAgcDb, kAgcCarrier, kAgcConstellation});
-    case RowKind::kPressure:
-      return HasAll(columns, {kSensorElapsedRealtime, kSensorX});
-    default:
-      return HasAll(columns, {kSensorElapsedRealtime, kSensorX, kSensorY, kSensorZ});
-  }
-}
 
 bool ReadFix(const CsvCells& cells, const CsvRow& row, LoggedFix* record) {
   const auto latitude_deg = cells.RequiredDouble(kFixLatitude, -90.0, 90.0);
@@ -364,7 +124,7 @@ bool ReadSensor(RowKind kind, const CsvCells& cells, LoggedSensor* record) {
   const SensorTraits traits = TraitsOf(kind);
   LoggedSensor sensor;
   sensor.kind = traits.kind;
-  sensor.uncalibrated = traits.uncalibrated;
+  sensor.uncalibrated = IsUncalibrated(kind);
   const auto elapsed_ns = cells.RequiredInteger(kSensorElapsedRealtime, 0, kLargestTime_ns);
   if (!elapsed_ns) return false;
   sensor.elapsed_realtime_ns = *elapsed_ns;
@@ -374,7 +134,7 @@ bool ReadSensor(RowKind kind, const CsvCells& cells, LoggedSensor* record) {
     if (!value) return false;
     sensor.values[sensor.count++] = *value;
   }
-  if (traits.uncalibrated) {
+  if (sensor.uncalibrated) {
     for (int i = 0; i < 3; ++i) {
       sensor.biases[i] =
           cells.Double(kSensorBiasX + i, -traits.largest, traits.largest).value_or(0.0);

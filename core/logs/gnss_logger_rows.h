@@ -1,45 +1,14 @@
-// The rows of a GnssLogger text besides Raw: what each one's columns are and how they are read.
+// The rows of a GnssLogger text besides Raw.
 #pragma once
 
-#include <array>
-#include <optional>
-#include <span>
+#include <cstdint>
 #include <string_view>
 
 #include "core/logs/csv_columns.h"
 #include "core/logs/gnss_logger.h"
+#include "core/logs/gnss_logger_columns.h"
 
 namespace lodemark {
-
-// Leading words of the rows this reader knows.
-enum class RowKind : std::uint8_t {
-  kRaw,
-  kFix,
-  kStatus,
-  kNav,
-  kAgc,
-  kUncalAccel,
-  kAccel,
-  kUncalGyro,
-  kGyro,
-  kUncalMag,
-  kMag,
-  kOrientationDeg,
-  kGameRotationVector,
-  kPressure,
-};
-inline constexpr int kRowKindCount = 14;
-
-std::optional<RowKind> RowKindFromWord(std::string_view word);
-std::string_view WordOf(RowKind kind);
-
-std::span<const ColumnName> ColumnNamesOf(RowKind kind);
-
-// The column order of logs without a header for this kind, by the number of columns of the row.
-std::string_view DefaultHeader(RowKind kind, int columns);
-
-// Whether the columns suffice to read rows of this kind at all.
-bool Suffices(RowKind kind, const CsvColumns& columns);
 
 // Each replaces *record, reusing its memory, or counts the row as skipped and gives false.
 bool ReadFix(const CsvCells& cells, const CsvRow& row, LoggedFix* record);

@@ -24,8 +24,8 @@ struct LineReader::Impl {
   std::vector<char> buffer;  // unused when the window is the caller's memory
   const char* begin = nullptr;
   const char* end = nullptr;
-  std::string cut_line;    // the kept part of an overlong line
   bool exhausted = false;  // the source has no more text
+  bool dropping = false;   // the window begins inside an overlong line
   bool unterminated = false;
   std::int64_t line_number = 0;
   std::int64_t delivered = 0;
@@ -42,8 +42,9 @@ struct LineReader::Impl {
     return got > 0;
   }
 
-  // Drops the rest of an overlong line, through its end.
+  // Drops what is left of an overlong line, through its end.
   void DropLine() {
+    dropping = false;
     do {
       const auto size = static_cast<std::size_t>(end - begin);
       const void* const found = size > 0 ? std::memchr(begin, '\n', size) : nullptr;
@@ -53,7 +54,6 @@ struct LineReader::Impl {
       }
       Advance(end);
     } while (Refill());
-    unterminated = true;
   }
 
   void Advance(const char* to) {
@@ -94,6 +94,7 @@ LineReader LineReader::FromMemory(std::string name, std::string_view text) {
 
 bool LineReader::Next(std::string_view* line) {
   Impl& in = *impl_;
+  if (in.dropping) in.DropLine();
   in.unterminated = false;
   std::size_t searched = 0;
   const char* newline = nullptr;
@@ -116,12 +117,8 @@ bool LineReader::Next(std::string_view* line) {
     in.Advance(in.end);
     in.unterminated = true;
   } else {
-    // The line is cut; keep its text where a refill does not reach.
-    if (!in.buffer.empty()) {
-      in.cut_line.assign(*line);
-      *line = in.cut_line;
-    }
-    in.DropLine();
+    in.Advance(first + kLongestLine);
+    in.dropping = true;
   }
 
   ++in.line_number;

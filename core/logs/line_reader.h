@@ -31,7 +31,7 @@ class LineReader {
 
   // Of the line last returned, from 1.
   std::int64_t line_number() const;
-  // The last line had no end: a truncated file.
+  // The line last returned is the last and has no end: a truncated file.
   bool last_line_unterminated() const;
   // Bytes of text delivered, and the share of the (compressed) file read, 0..1.
   std::int64_t bytes_read() const;

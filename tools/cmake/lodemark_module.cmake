@@ -39,7 +39,7 @@ function(lodemark_module name)
 endfunction()
 
 # lodemark_unit_test(gnss SOURCES a_test.cc DEPENDS logs) makes the test program gnss_test of the
-# module and registers its cases with CTest. Suites named Recorded... read real recordings, see
+# module and registers its cases with CTest. Suites with Recorded in their name read real recordings, see
 # test/recordings.h, and carry the label recorded.
 function(lodemark_unit_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LINKS" ${ARGN})
@@ -51,9 +51,9 @@ function(lodemark_unit_test name)
   endforeach()
   target_compile_definitions(
     ${name}_test PRIVATE LODEMARK_DATA_DEFAULT="${PROJECT_SOURCE_DIR}/../shared/data")
-  gtest_discover_tests(${name}_test TEST_PREFIX ${name}. TEST_FILTER -Recorded*
+  gtest_discover_tests(${name}_test TEST_PREFIX ${name}. TEST_FILTER -*Recorded*
                        DISCOVERY_TIMEOUT 120)
-  gtest_discover_tests(${name}_test TEST_PREFIX ${name}. TEST_FILTER Recorded*
+  gtest_discover_tests(${name}_test TEST_PREFIX ${name}. TEST_FILTER *Recorded*
                        TEST_LIST ${name}_recorded_tests DISCOVERY_TIMEOUT 120
                        PROPERTIES LABELS recorded)
 endfunction()
