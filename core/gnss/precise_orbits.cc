@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kPoints = 11;
 constexpr double kEarthRotation_radps = 7.2921151467e-5;
+constexpr std::int64_t kSmallestSpacing_ns = kSecond_ns;
 constexpr std::int64_t kLargestSpacing_ns = 1800 * kSecond_ns;
 
 // Samples first..first+kPoints-1, evenly spaced and without manoeuvre.
@@ -37,7 +38,7 @@ std::optional<Window> FindWindow(const std::vector<PreciseSample>& samples,
   const std::int64_t begin_ns = samples[before].time_gps_ns;
   const std::int64_t end_ns = samples[before + 1].time_gps_ns;
   const std::int64_t spacing_ns = end_ns - begin_ns;
-  if (spacing_ns <= 0 || spacing_ns > kLargestSpacing_ns) return std::nullopt;
+  if (spacing_ns < kSmallestSpacing_ns || spacing_ns > kLargestSpacing_ns) return std::nullopt;
   if (time_gps_ns < begin_ns || time_gps_ns > end_ns) return std::nullopt;
   if (!Continues(samples, before, spacing_ns)) return std::nullopt;
 

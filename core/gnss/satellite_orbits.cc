@@ -268,6 +268,8 @@ bool EvaluatePrecise(const Source& source, SatelliteId id, SignalCode signal,
       precise->clock_bias_s + DelayCorrection(source, id, signal, ClockSource::kPrecise);
   state->clock_drift_sps = precise->clock_drift_sps;
   AddRelativity(*precise, state);
+  // Samples that lie on no orbit can give any velocity.
+  if (!(std::abs(state->clock_bias_s) < 1.0)) return false;
   const auto& samples = source.satellite->precise;
   const auto after = std::upper_bound(
       samples.begin(), samples.end(), instant.whole_ns,
@@ -367,7 +369,7 @@ void SatelliteOrbits::Add(const PreciseOrbits& orbits) {
     merged.reserve(added.size() + satellite->precise.size());
     for (const PreciseSample& sample : added) {
       if (sample.time_gps_ns >= 0 && sample.time_gps_ns < kLatest_ns &&
-          sample.position_in_ecef.allFinite() && std::isfinite(sample.clock_bias_s)) {
+          sample.position_in_ecef.norm() < 1e9 && std::abs(sample.clock_bias_s) < 1.0) {
         merged.push_back(sample);
       }
     }

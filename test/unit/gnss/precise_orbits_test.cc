@@ -184,6 +184,20 @@ TEST(PreciseInSatelliteOrbits, IsNotUsedForAnUnhealthySatellite) {
             OrbitVerdict::kUnhealthy);
 }
 
+TEST(PreciseInSatelliteOrbits, GivesNothingFiniteTimeCannotHold) {
+  SatelliteOrbits orbits;
+  const SatelliteId satellite = Orbit().satellite;
+  PreciseOrbits scattered;  // a second apart, at opposite ends of what is let in
+  scattered.samples[satellite] = Table(15, kSecond_ns);
+  for (std::size_t i = 0; i < 15; ++i) {
+    scattered.samples[satellite][i].position_in_ecef.setConstant(i % 2 == 0 ? 5e8 : -5e8);
+  }
+  orbits.Add(scattered);
+  SatelliteState state;
+  EXPECT_EQ(orbits.AtTime(satellite, {'1', 'C'}, kStart_ns + 7 * kSecond_ns, 0.3, &state),
+            OrbitVerdict::kNoEphemeris);
+}
+
 TEST(PreciseInSatelliteOrbits, MergesTablesAndDropsNonsense) {
   SatelliteOrbits orbits;
   const SatelliteId satellite = Orbit().satellite;
@@ -198,6 +212,10 @@ TEST(PreciseInSatelliteOrbits, MergesTablesAndDropsNonsense) {
   early.samples[satellite].push_back(nonsense);
   nonsense = table[5];
   nonsense.time_gps_ns = std::numeric_limits<std::int64_t>::min();
+  early.samples[satellite].push_back(nonsense);
+  nonsense = table[5];
+  nonsense.time_gps_ns += kSecond_ns;
+  nonsense.clock_bias_s = 1e300;
   early.samples[satellite].push_back(nonsense);
   early.samples[{static_cast<System>(99), 99}] = table;
   orbits.Add(late);
