@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "core/base/units.h"
 #include "core/geo/time.h"
@@ -31,10 +32,6 @@ constexpr std::int64_t kLongestTravel_ns = 148 * kMillisecond_ns;
 constexpr std::int64_t kLargestTimeUncertainty_ns = 500;
 constexpr double kLargestTimeOffset_ns = 1e9;
 
-// Range rates: satellites to 1.1 km/s, a crystal 10 ppm off 3 km/s.
-constexpr double kLargestRate_mps = 5e3;
-constexpr double kLargestRateSigma_mps = 20.0;
-constexpr double kLargestPhaseSigma_m = 1.0;
 constexpr double kLargestCn0_dbhz = 65.0;
 constexpr double kLargestAgc_db = 200.0;
 
@@ -43,20 +40,7 @@ constexpr double kSignalsApart_m = 3e3;
 constexpr std::int64_t kPredictable_ns = 30 * kSecond_ns;
 constexpr double kPredictionError_m = 30e3;
 
-// Phase against Doppler: 5 m/s^2 of change in acceleration between two Dopplers is left in.
-constexpr std::int64_t kPhaseGap_ns = 10 * kSecond_ns;
-constexpr double kPhaseNoise_m = 0.5;
-constexpr double kAcceleration_mps2 = 2.5;
-
-constexpr std::size_t kMostTracks = 1024;
 constexpr std::int64_t kForgottenAfterEpochs = 600;
-
-// GnssMeasurement.ADR_STATE_*.
-constexpr std::int32_t kAdrValid = 1;
-constexpr std::int32_t kAdrReset = 2;
-constexpr std::int32_t kAdrCycleSlip = 4;
-constexpr std::int32_t kAdrHalfCycleResolved = 8;
-constexpr std::int32_t kAdrHalfCycleReported = 16;
 
 constexpr std::int32_t kMultipathIndicated = 1;  // GnssMeasurement.MULTIPATH_INDICATOR_DETECTED
 
@@ -85,17 +69,36 @@ double MedianOf(std::vector<double>* values) {
   return *middle;
 }
 
-bool HasRangeRate(const AndroidMeasurement& raw) {
-  if (!raw.Has(kMeasurementHasRangeRate)) return false;
-  if (!IsFiniteWithin(raw.pseudorange_rate_mps, kLargestRate_mps)) return false;
-  return !raw.Has(kMeasurementHasRangeRateUncertainty) ||
-         IsFiniteWithin(raw.pseudorange_rate_uncertainty_mps, kLargestRateSigma_mps);
+void AddDoppler(const AndroidMeasurement& measurement, SignalObservation* observation) {
+  if (!HasUsableRangeRate(measurement)) return;
+  observation->present |= kHasDoppler;
+  observation->doppler_hz =
+      -measurement.pseudorange_rate_mps * observation->frequency_hz / kSpeedOfLight_mps;
+  if (measurement.Has(kMeasurementHasRangeRateUncertainty) &&
+      measurement.pseudorange_rate_uncertainty_mps > 0.0) {
+    observation->present |= kHasRangeRateSigma;
+    observation->range_rate_sigma_mps = measurement.pseudorange_rate_uncertainty_mps;
+  }
 }
 
-// What the measurement's own time of reception adds to a range at the time of the epoch.
-double MovedToEpoch(const AndroidMeasurement& raw) {
-  if (!HasRangeRate(raw) || !IsFiniteWithin(raw.time_offset_ns, kLargestTimeOffset_ns)) return 0.0;
-  return -raw.pseudorange_rate_mps * 1e-9 * raw.time_offset_ns;
+void AddStrengths(const AndroidMeasurement& measurement, SignalObservation* observation) {
+  if (measurement.Has(kMeasurementHasCn0) && measurement.cn0_dbhz > 0.0 &&
+      measurement.cn0_dbhz <= kLargestCn0_dbhz) {
+    observation->present |= kHasCn0;
+    observation->cn0_dbhz = measurement.cn0_dbhz;
+  }
+  if (measurement.Has(kMeasurementHasBasebandCn0) && measurement.baseband_cn0_dbhz > 0.0 &&
+      measurement.baseband_cn0_dbhz <= kLargestCn0_dbhz) {
+    observation->present |= kHasBasebandCn0;
+    observation->baseband_cn0_dbhz = measurement.baseband_cn0_dbhz;
+  }
+  if (measurement.Has(kMeasurementHasAgc) && IsFiniteWithin(measurement.agc_db, kLargestAgc_db)) {
+    observation->present |= kHasAgc;
+    observation->agc_db = measurement.agc_db;
+  }
+  if (measurement.multipath_indicator == kMultipathIndicated) {
+    observation->flags |= kMultipathDetected;
+  }
 }
 
 }  // namespace
@@ -143,7 +146,7 @@ bool AndroidObservables::FollowClock(const AndroidClock& clock) {
   if (first || restarted || stepped || renew) Hold(clock);
   // The hardware clock carries the phase; an estimate of its bias does not.
   if (restarted) {
-    for (Track& track : tracks_) track.phase_valid = false;
+    tracks_.BreakPhases();
   }
   return !first && (restarted || stepped || renew);
 }
@@ -245,7 +248,7 @@ void AndroidObservables::MeasureTravel(const AndroidMeasurement& raw, Work* work
     work->resolved_by_us = work->period_ns < kSecond_ns;
     work->pseudorange_m =
         kSpeedOfLight_mps * 1e-9 * (static_cast<double>(work->elapsed_ns) + work->fraction_ns) +
-        MovedToEpoch(raw);
+        RangeMovedToEpoch(raw);
   }
 }
 
@@ -263,7 +266,7 @@ void AndroidObservables::ResolveFromNeighbours(const AndroidEpoch& raw) {
       }
     }
     if (!expected_m) {
-      const Track* track = FindTrack(work.signal.satellite, work.signal.signal);
+      const AndroidTrack* track = tracks_.Find(work.signal.satellite, work.signal.signal);
       const std::int64_t age_ns = track ? raw.clock.time_ns - track->range_time_ns : 0;
       if (track && track->range_hold == hold_count_ && age_ns > 0 && age_ns < kPredictable_ns) {
         expected_m = track->range_m + 1e-9 * static_cast<double>(age_ns) * track->rate_mps;
@@ -274,7 +277,7 @@ void AndroidObservables::ResolveFromNeighbours(const AndroidEpoch& raw) {
     const double period_m = kSpeedOfLight_mps * 1e-9 * static_cast<double>(work.period_ns);
     const double range_m =
         kSpeedOfLight_mps * 1e-9 * (static_cast<double>(work.elapsed_ns) + work.fraction_ns) +
-        MovedToEpoch(raw.measurements[i]);
+        RangeMovedToEpoch(raw.measurements[i]);
     const double resolved_m = range_m + period_m * std::round((*expected_m - range_m) / period_m);
     if (std::abs(resolved_m - *expected_m) > tolerance_m) continue;
     work.pseudorange_m = resolved_m;
@@ -284,27 +287,17 @@ void AndroidObservables::ResolveFromNeighbours(const AndroidEpoch& raw) {
   }
 }
 
-AndroidObservables::Track* AndroidObservables::FindTrack(SatelliteId satellite, SignalCode signal) {
-  for (Track& track : tracks_) {
-    if (track.satellite == satellite && track.signal == signal) return &track;
+void AndroidObservables::AddRange(const Work& work, const AndroidMeasurement& measurement,
+                                  SignalObservation* observation) {
+  observation->present |= kHasPseudorange;
+  observation->pseudorange_m = work.pseudorange_m;
+  if (work.resolved_by_us) observation->flags |= kSignalTimeUncertain;
+  if (measurement.Has(kMeasurementHasReceivedTimeUncertainty) &&
+      measurement.received_sv_time_uncertainty_ns > 0) {
+    observation->present |= kHasPseudorangeSigma;
+    observation->pseudorange_sigma_m =
+        kSpeedOfLight_mps * 1e-9 * static_cast<double>(measurement.received_sv_time_uncertainty_ns);
   }
-  return nullptr;
-}
-
-AndroidObservables::Track* AndroidObservables::FindOrAddTrack(SatelliteId satellite,
-                                                              SignalCode signal) {
-  if (Track* found = FindTrack(satellite, signal)) return found;
-  Track* track = nullptr;
-  if (tracks_.size() < kMostTracks) {
-    track = &tracks_.emplace_back();
-  } else {
-    track = &*std::min_element(tracks_.begin(), tracks_.end(),
-                               [](const Track& a, const Track& b) { return a.epoch < b.epoch; });
-    *track = Track();
-  }
-  track->satellite = satellite;
-  track->signal = signal;
-  return track;
 }
 
 void AndroidObservables::Emit(const AndroidEpoch& raw, ObservationEpoch* epoch) {
@@ -312,7 +305,7 @@ void AndroidObservables::Emit(const AndroidEpoch& raw, ObservationEpoch* epoch) 
     Work& work = work_[i];
     if (!work.tracking) continue;
     const AndroidMeasurement& measurement = raw.measurements[i];
-    Track* track = FindOrAddTrack(work.signal.satellite, work.signal.signal);
+    AndroidTrack* track = tracks_.FindOrAdd(work.signal.satellite, work.signal.signal);
     if (track->epoch == epoch_count_) {
       work.verdict = RawVerdict::kDuplicate;
       continue;
@@ -325,113 +318,20 @@ void AndroidObservables::Emit(const AndroidEpoch& raw, ObservationEpoch* epoch) 
     observation.glonass_channel = work.signal.glonass_channel;
     observation.frequency_hz = work.signal.frequency_hz;
     if (work.has_range) {
-      observation.present |= kHasPseudorange;
-      observation.pseudorange_m = work.pseudorange_m;
-      if (work.resolved_by_us) observation.flags |= kSignalTimeUncertain;
-      if (measurement.Has(kMeasurementHasReceivedTimeUncertainty) &&
-          measurement.received_sv_time_uncertainty_ns > 0) {
-        observation.present |= kHasPseudorangeSigma;
-        observation.pseudorange_sigma_m =
-            kSpeedOfLight_mps * 1e-9 *
-            static_cast<double>(measurement.received_sv_time_uncertainty_ns);
-      }
+      AddRange(work, measurement, &observation);
       track->range_m = work.pseudorange_m;
       track->range_time_ns = raw.clock.time_ns;
       track->range_hold = hold_count_;
     }
-    if (HasRangeRate(measurement)) {
-      observation.present |= kHasDoppler;
-      observation.doppler_hz =
-          -measurement.pseudorange_rate_mps * observation.frequency_hz / kSpeedOfLight_mps;
-      if (measurement.Has(kMeasurementHasRangeRateUncertainty) &&
-          measurement.pseudorange_rate_uncertainty_mps > 0.0) {
-        observation.present |= kHasRangeRateSigma;
-        observation.range_rate_sigma_mps = measurement.pseudorange_rate_uncertainty_mps;
-      }
+    AddDoppler(measurement, &observation);
+    AddStrengths(measurement, &observation);
+    std::optional<PhaseStep> step = AddPhase(measurement, raw.clock.time_ns, track, &observation);
+    if (step) {
+      step->signal = epoch->signals.size();
+      phase_steps_.push_back(*step);
     }
-    if (measurement.Has(kMeasurementHasCn0) && measurement.cn0_dbhz > 0.0 &&
-        measurement.cn0_dbhz <= kLargestCn0_dbhz) {
-      observation.present |= kHasCn0;
-      observation.cn0_dbhz = measurement.cn0_dbhz;
-    }
-    if (measurement.Has(kMeasurementHasBasebandCn0) && measurement.baseband_cn0_dbhz > 0.0 &&
-        measurement.baseband_cn0_dbhz <= kLargestCn0_dbhz) {
-      observation.present |= kHasBasebandCn0;
-      observation.baseband_cn0_dbhz = measurement.baseband_cn0_dbhz;
-    }
-    if (measurement.Has(kMeasurementHasAgc) && IsFiniteWithin(measurement.agc_db, kLargestAgc_db)) {
-      observation.present |= kHasAgc;
-      observation.agc_db = measurement.agc_db;
-    }
-    if (measurement.multipath_indicator == kMultipathIndicated) {
-      observation.flags |= kMultipathDetected;
-    }
-    epoch->signals.push_back(observation);
-    EmitPhase(raw, measurement, track, epoch);
     constexpr std::uint32_t kAny = kHasPseudorange | kHasCarrierPhase | kHasDoppler;
-    if ((epoch->signals.back().present & kAny) == 0) epoch->signals.pop_back();
-  }
-}
-
-// Adds the phase to the last signal of the epoch and what is needed to judge it to phase_steps_.
-void AndroidObservables::EmitPhase(const AndroidEpoch& raw, const AndroidMeasurement& measurement,
-                                   Track* track, ObservationEpoch* epoch) {
-  const bool has_rate = HasRangeRate(measurement);
-  const double rate_mps = has_rate ? measurement.pseudorange_rate_mps : 0.0;
-  const double rate_sigma_mps = has_rate && measurement.Has(kMeasurementHasRangeRateUncertainty)
-                                    ? std::abs(measurement.pseudorange_rate_uncertainty_mps)
-                                    : 0.0;
-  const std::int32_t state = measurement.accumulated_delta_range_state;
-  const bool valid = measurement.Has(kMeasurementHasAccumulatedDeltaRange) &&
-                     (state & kAdrValid) != 0 &&
-                     IsFiniteWithin(measurement.accumulated_delta_range_m, 1e12);
-  if (valid) {
-    SignalObservation& observation = epoch->signals.back();
-    const double phase_m = measurement.accumulated_delta_range_m + MovedToEpoch(measurement);
-    observation.present |= kHasCarrierPhase;
-    observation.carrier_phase_cycles = phase_m * observation.frequency_hz / kSpeedOfLight_mps;
-    const double sigma_m = measurement.accumulated_delta_range_uncertainty_m;
-    if (sigma_m > 0.0 && sigma_m <= kLargestPhaseSigma_m) {
-      observation.present |= kHasCarrierPhaseSigma;
-      observation.carrier_phase_sigma_m = sigma_m;
-    }
-    if ((state & kAdrHalfCycleReported) != 0 && (state & kAdrHalfCycleResolved) == 0) {
-      observation.flags |= kHalfCycleAmbiguous;
-    }
-    const std::int64_t elapsed_ns = raw.clock.time_ns - track->phase_time_ns;
-    const bool continues = track->phase_valid && (state & (kAdrReset | kAdrCycleSlip)) == 0 &&
-                           elapsed_ns > 0 && elapsed_ns <= kPhaseGap_ns;
-    if (!continues) {
-      observation.flags |= kLossOfLock;
-    } else if (has_rate) {
-      const double elapsed_s = 1e-9 * static_cast<double>(elapsed_ns);
-      PhaseStep& step = phase_steps_.emplace_back();
-      step.signal = epoch->signals.size() - 1;
-      step.mismatch_m = phase_m - track->phase_m - 0.5 * (rate_mps + track->rate_mps) * elapsed_s;
-      step.tolerance_m = kPhaseNoise_m +
-                         1.5 * (rate_sigma_mps + track->rate_sigma_mps) * elapsed_s +
-                         kAcceleration_mps2 * elapsed_s * elapsed_s;
-    }
-    track->phase_m = phase_m;
-    track->phase_time_ns = raw.clock.time_ns;
-  }
-  track->phase_valid = valid && has_rate;
-  track->rate_mps = rate_mps;
-  track->rate_sigma_mps = rate_sigma_mps;
-}
-
-// A slip shows in one signal; what all share is the clock's, and how the phone derives its rates.
-void AndroidObservables::FlagSlips(ObservationEpoch* epoch) {
-  double shared_m = 0.0;
-  if (phase_steps_.size() >= 4) {
-    scratch_.clear();
-    for (const PhaseStep& step : phase_steps_) scratch_.push_back(step.mismatch_m);
-    shared_m = MedianOf(&scratch_);
-  }
-  for (const PhaseStep& step : phase_steps_) {
-    if (std::abs(step.mismatch_m - shared_m) > step.tolerance_m) {
-      epoch->signals[step.signal].flags |= kLossOfLock;
-    }
+    if ((observation.present & kAny) != 0) epoch->signals.push_back(observation);
   }
 }
 
@@ -487,12 +387,10 @@ bool AndroidObservables::Convert(const AndroidEpoch& raw, ObservationEpoch* epoc
   }
   ResolveFromNeighbours(raw);
   Emit(raw, epoch);
-  FlagSlips(epoch);
+  FlagSlips(phase_steps_, &scratch_, &epoch->signals);
   for (std::size_t i = 0; i < work_.size(); ++i) outcomes->push_back({i, work_[i].verdict});
   if (epoch_count_ % kForgottenAfterEpochs == 0) {
-    std::erase_if(tracks_, [&](const Track& track) {
-      return track.epoch < epoch_count_ - kForgottenAfterEpochs;
-    });
+    tracks_.ForgetBefore(epoch_count_ - kForgottenAfterEpochs);
   }
   return true;
 }

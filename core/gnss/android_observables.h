@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "core/gnss/android_measurement.h"
 #include "core/gnss/android_signal.h"
+#include "core/gnss/android_tracking.h"
 #include "core/gnss/observation.h"
 
 namespace lodemark {
@@ -45,40 +45,18 @@ class AndroidObservables {
   void Reset();
 
  private:
-  // What the epochs before leave of one signal.
-  struct Track {
-    SatelliteId satellite;
-    SignalCode signal;
-    std::int64_t epoch = 0;          // count of the last epoch it was in
-    std::int64_t range_time_ns = 0;  // hardware clock
-    double range_m = 0.0;
-    std::int64_t range_hold = -1;  // count of the hold it belongs to, -1: no range
-    std::int64_t phase_time_ns = 0;
-    double phase_m = 0.0;
-    double rate_mps = 0.0;
-    double rate_sigma_mps = 0.0;
-    bool phase_valid = false;
-  };
-
   // One measurement on its way through Convert.
   struct Work {
     AndroidSignal signal;
     RawVerdict verdict = RawVerdict::kGood;
     bool tracking = false;
     std::int64_t period_ns = 0;
-    std::int64_t elapsed_ns =
-        0;                     // reception minus transmission modulo the period, by the held clock
-    double fraction_ns = 0.0;  // to be added
+    // Reception by the held clock minus transmission, modulo the period, and its fraction.
+    std::int64_t elapsed_ns = 0;
+    double fraction_ns = 0.0;
     double pseudorange_m = 0.0;
     bool has_range = false;
     bool resolved_by_us = false;
-  };
-
-  // The phase of a signal against its range rate since the epoch before.
-  struct PhaseStep {
-    std::size_t signal = 0;  // index into ObservationEpoch::signals
-    double mismatch_m = 0.0;
-    double tolerance_m = 0.0;
   };
 
   // The phone's own reading of GPS time, as corrected; what ambiguities are resolved against.
@@ -89,12 +67,9 @@ class AndroidObservables {
   bool CorrectClock(const AndroidEpoch& raw);
   void MeasureTravel(const AndroidMeasurement& raw, Work* work) const;
   void ResolveFromNeighbours(const AndroidEpoch& raw);
+  static void AddRange(const Work& work, const AndroidMeasurement& measurement,
+                       SignalObservation* observation);
   void Emit(const AndroidEpoch& raw, ObservationEpoch* epoch);
-  void EmitPhase(const AndroidEpoch& raw, const AndroidMeasurement& measurement, Track* track,
-                 ObservationEpoch* epoch);
-  void FlagSlips(ObservationEpoch* epoch);
-  Track* FindTrack(SatelliteId satellite, SignalCode signal);
-  Track* FindOrAddTrack(SatelliteId satellite, SignalCode signal);
 
   GlonassChannels glonass_channels_;
 
@@ -115,7 +90,7 @@ class AndroidObservables {
   int leap_seconds_ = 0;
 
   std::vector<Work> work_;
-  std::vector<Track> tracks_;
+  AndroidTracks tracks_;
   std::vector<PhaseStep> phase_steps_;
   std::vector<double> scratch_;
 };
