@@ -10,11 +10,11 @@ constexpr double kInverseSqrtTwo = 0.7071067811865476;
 
 // Logarithm of the gamma function for x > 0 (Lanczos; std::lgamma writes a global).
 double LogGamma(double x) {
-  constexpr double kCoefficients[] = {676.5203681218851,     -1259.1392167224028,
-                                      771.32342877765313,    -176.61502916214059,
-                                      12.507343278686905,    -0.13857109526572012,
-                                      9.9843695780195716e-6, 1.5056327351493116e-7};
-  if (x < 0.5) return std::log(3.141592653589793 / std::sin(3.141592653589793 * x)) - LogGamma(1.0 - x);
+  constexpr double kCoefficients[] = {
+      676.5203681218851,  -1259.1392167224028,  771.32342877765313,    -176.61502916214059,
+      12.507343278686905, -0.13857109526572012, 9.9843695780195716e-6, 1.5056327351493116e-7};
+  if (x < 0.5)
+    return std::log(3.141592653589793 / std::sin(3.141592653589793 * x)) - LogGamma(1.0 - x);
   double sum = 0.99999999999980993;
   for (int i = 0; i < 8; ++i) sum += kCoefficients[i] / (x + i);
   const double t = x + 6.5;

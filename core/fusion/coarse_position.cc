@@ -1,8 +1,8 @@
 #include "core/fusion/coarse_position.h"
 
 #include <Eigen/Cholesky>
-#include <array>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/fusion/clock_biases.h"

@@ -87,7 +87,12 @@ bool Approach(PointProblem* problem, bool robust) {
     if (moved_m < 1.0) break;
   }
   if (!robust) return true;
-  for (double width = 16.0; width > 1.5; width *= 0.6) {
+  // Begin where the worst residual is not yet suspect.
+  double worst = 0.0;
+  for (const PointProblem::Row& row : problem->rows()) {
+    worst = std::max(worst, std::abs(problem->Residual(row)) / row.error.sigma_m);
+  }
+  for (double width = std::clamp(worst, 16.0, 1e7); width > 1.5; width *= 0.6) {
     if (solve(width) < 0.0) return false;
   }
   return true;

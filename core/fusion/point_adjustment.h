@@ -17,9 +17,9 @@ namespace lodemark {
 
 enum class PointStatus : std::uint8_t {
   kGood,
-  kTooFew,         // fewer observations than unknowns
-  kNotConverged,   // the geometry does not fix the position
-  kInconsistent,   // no subset large enough agrees
+  kTooFew,        // fewer observations than unknowns
+  kNotConverged,  // the geometry does not fix the position
+  kInconsistent,  // no subset large enough agrees
 };
 
 struct PointOptions {
@@ -36,15 +36,15 @@ struct ObservationVerdict {
   double residual_m = 0.0;
   double weight = 0.0;      // probability that the error is ordinary noise
   double late_share = 0.0;  // probability that it is a reflection
-  bool used = false;    // weight at least a half
-  bool observable = true;  // false: the only one of a clock group nobody knows
+  bool used = false;        // weight at least a half
+  bool observable = true;   // false: the only one of a clock group nobody knows
 };
 
 struct PointEstimate {
   PointStatus status = PointStatus::kTooFew;
   Eigen::Vector3d position_in_ecef = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_enu_m2 = Eigen::Matrix3d::Zero();
-  double clock_m = 0.0;          // of group 0
+  double clock_m = 0.0;  // of group 0
   double clock_variance_m2 = 0.0;
   // Of the groups seen, after the epoch.
   std::array<ClockBias, kMaxClockGroups> biases = {};

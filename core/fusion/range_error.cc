@@ -28,7 +28,8 @@ Parts Evaluate(const RangeErrorModel& model, double error_m) {
   const double u = error_m * inverse_sigma;
   const double gauss = std::exp(-0.5 * u * u);
   const double normal_pm = kInverseSqrtTwoPi * inverse_sigma * gauss;
-  // Normal plus exponential: exp(k^2 / 2 - k u) erfc((k - u) / sqrt 2) / (2 scale), k = sigma/scale.
+  // Normal plus exponential: exp(k^2 / 2 - k u) erfc((k - u) / sqrt 2) / (2 scale), k =
+  // sigma/scale.
   const double k = model.sigma_m / model.late_scale_m;
   const double z = (k - u) * kInverseSqrtTwo;
   double late_pm = 0.0;
@@ -51,9 +52,9 @@ RangeErrorTerms EvaluateRangeError(const RangeErrorModel& model, double error_m)
   RangeErrorTerms terms;
   terms.density_pm = core + late + kGrossDensity_pm;
   // The derivative of normal-plus-exponential is (normal - itself) / scale.
-  const double derivative = -core * error_m / (model.sigma_m * model.sigma_m) +
-                            model.late_probability * (parts.normal_pm - parts.late_pm) /
-                                model.late_scale_m;
+  const double derivative =
+      -core * error_m / (model.sigma_m * model.sigma_m) +
+      model.late_probability * (parts.normal_pm - parts.late_pm) / model.late_scale_m;
   terms.slope_pm = -derivative / terms.density_pm;
   terms.core_share = core / terms.density_pm;
   terms.late_share = late / terms.density_pm;

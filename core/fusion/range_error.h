@@ -9,10 +9,10 @@
 namespace lodemark {
 
 struct RangeErrorTerms {
-  double density_pm = 0.0;     // per metre
-  double slope_pm = 0.0;       // -d log(density) / d error
-  double core_share = 0.0;     // probability that the error is ordinary noise
-  double late_share = 0.0;     // that it is a reflection
+  double density_pm = 0.0;  // per metre
+  double slope_pm = 0.0;    // -d log(density) / d error
+  double core_share = 0.0;  // probability that the error is ordinary noise
+  double late_share = 0.0;  // that it is a reflection
 };
 
 RangeErrorTerms EvaluateRangeError(const RangeErrorModel& model, double error_m);

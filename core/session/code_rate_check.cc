@@ -37,8 +37,8 @@ const std::vector<double>& CodeRateCheck::Update(const ObservationEpoch& epoch) 
     if (before == past_.end()) continue;
     const double gap_s = 1e-9 * static_cast<double>(now.time_gps_ns - before->time_gps_ns);
     if (!(gap_s > 0.0) || gap_s > kLongestGap_s) continue;
-    disagreement_m_[i] = now.pseudorange_m - before->pseudorange_m -
-                         0.5 * (now.rate_mps + before->rate_mps) * gap_s;
+    disagreement_m_[i] =
+        now.pseudorange_m - before->pseudorange_m - 0.5 * (now.rate_mps + before->rate_mps) * gap_s;
   }
   // What the signals of a band share is the receiver's clock.
   for (std::size_t i = 0; i < epoch.signals.size(); ++i) {

@@ -22,6 +22,22 @@ constexpr double kPreciseOrbitSigma_m = 0.1;
 // clock; this share of its sigma differs between them.
 constexpr double kIonosphereOwnShare = 0.4;
 
+// Code delay of a receiver differs between FDMA channels.
+constexpr double kGlonassChannelSigma_m = 2.0;
+
+// Band pairs whose satellites' group delays the messages tell well enough to multiply them by the
+// factors of the combination: GPS clocks are defined by L1 and L2, Galileo's by E1 with E5a or E5b,
+// BeiDou's by B3. GPS L5 would need CNAV's corrections; GLONASS channels differ by metres.
+bool CanCombine(const PreparedSignal& first, const PreparedSignal& second) {
+  if (first.satellite_id.system == System::kGalileo ||
+      first.satellite_id.system == System::kBeidou) {
+    return std::abs(first.frequency_hz - second.frequency_hz) > 200e6;
+  }
+  return (first.satellite_id.system == System::kGps ||
+          first.satellite_id.system == System::kQzss) &&
+         first.band == '1' && second.band == '2';
+}
+
 // Turns a vector by the earth's rotation during the flight of the signal.
 Eigen::Vector3d RotateByFlight(const Eigen::Vector3d& vector, double flight_s) {
   const double angle = kEarthRotation_radps * flight_s;
@@ -51,13 +67,13 @@ double OrbitSigma(const SatelliteState& state) {
 
 }  // namespace
 
-int ClockGroups::Group(System system, char band) {
+int ClockGroups::Group(System system, char band, char second_band) {
   for (int i = 0; i < count_; ++i) {
     const Key& key = keys_[static_cast<std::size_t>(i)];
-    if (key.system == system && key.band == band) return i;
+    if (key.system == system && key.band == band && key.second_band == second_band) return i;
   }
   if (count_ == kMaxClockGroups) return -1;
-  keys_[static_cast<std::size_t>(count_)] = {system, band};
+  keys_[static_cast<std::size_t>(count_)] = {system, band, second_band};
   return count_++;
 }
 
@@ -85,6 +101,8 @@ void GnssEpochModel::FindSatellites(const ObservationEpoch& epoch, const Satelli
     }
     PreparedSignal prepared;
     prepared.index = i;
+    prepared.satellite_id = signal.satellite;
+    prepared.band = signal.signal.band;
     const OrbitVerdict verdict =
         orbits.AtTransmission(signal.satellite, signal.signal, epoch.time_gps_ns,
                               signal.pseudorange_m, 0.0, &prepared.satellite);
@@ -93,17 +111,16 @@ void GnssEpochModel::FindSatellites(const ObservationEpoch& epoch, const Satelli
       continue;
     }
     // Old files do not say which FDMA channel a GLONASS slot uses; its ephemeris does.
-    prepared.frequency_hz =
-        signal.frequency_hz > 0.0
-            ? signal.frequency_hz
-            : CarrierFrequency(signal.satellite.system, signal.signal.band,
-                               prepared.satellite.glonass_channel)
-                  .value_or(0.0);
+    prepared.frequency_hz = signal.frequency_hz > 0.0
+                                ? signal.frequency_hz
+                                : CarrierFrequency(signal.satellite.system, signal.signal.band,
+                                                   prepared.satellite.glonass_channel)
+                                      .value_or(0.0);
     if (!(prepared.frequency_hz > 0.0)) {
       status.verdict = SatelliteVerdict::kUnknownSignal;
       continue;
     }
-    prepared.clock_group = groups_.Group(signal.satellite.system, signal.signal.band);
+    prepared.clock_group = groups_.Group(signal.satellite.system, signal.signal.band, ' ');
     if (prepared.clock_group < 0) {
       status.verdict = SatelliteVerdict::kUnknownSignal;
       continue;
@@ -116,6 +133,9 @@ void GnssEpochModel::NoteStrengths(const ObservationEpoch& epoch, RangeWeights* 
   for (const PreparedSignal& prepared : prepared_) {
     const SignalObservation& signal = epoch.signals[prepared.index];
     if (signal.Has(kHasCn0)) weights->NoteStrength(prepared.clock_group, signal.cn0_dbhz);
+    if (signal.satellite.system == System::kGps && signal.signal.band == '2') {
+      weights->NoteSurveyingReceiver();
+    }
   }
 }
 
@@ -127,8 +147,7 @@ const std::vector<RangeObservation>& GnssEpochModel::CoarseRanges(const Observat
     // A usual flight time turns the satellite to within some hundred metres.
     constexpr double kUsualFlight_s = 0.075;
     range.point_in_ecef = RotateByFlight(prepared.satellite.position_in_ecef, kUsualFlight_s);
-    range.range_m =
-        signal.pseudorange_m + kSpeedOfLight_mps * prepared.satellite.clock_bias_s;
+    range.range_m = signal.pseudorange_m + kSpeedOfLight_mps * prepared.satellite.clock_bias_s;
     range.clock_group = prepared.clock_group;
     range.error.sigma_m = 10.0;
     ranges_.push_back(range);
@@ -146,6 +165,9 @@ void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d&
   rate_signals_.clear();
   const Geodetic place = GeodeticFromEcef(place_in_ecef);
   const Eigen::Matrix3d enu_from_ecef = EnuFromEcefRotation(place);
+  // Beside ranges free of the ionosphere, what it leaves in the others is not common any more.
+  const bool combine = weights.surveying() && options_.ionosphere != IonosphereChoice::kNone;
+  const double ionosphere_share = combine ? 1.0 : kIonosphereOwnShare;
   for (PreparedSignal prepared : prepared_) {
     const SignalObservation& signal = epoch.signals[prepared.index];
     SatelliteStatus& status = (*statuses)[prepared.index];
@@ -170,7 +192,6 @@ void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d&
     }
     double ionosphere_sigma_m = 0.0;
     double troposphere_sigma_m = 0.0;
-    double delay_m = 0.0;
     if (options_.ionosphere != IonosphereChoice::kNone) {
       std::optional<IonosphereModel::Kind> kind;
       switch (options_.ionosphere) {
@@ -190,34 +211,40 @@ void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d&
         case IonosphereChoice::kNone:
           break;
       }
-      delay_m += ionosphere.Delay(place, place_in_ecef, prepared.satellite_in_ecef, look,
-                                  epoch.time_gps_ns, prepared.frequency_hz, &ionosphere_sigma_m, kind);
-      ionosphere_sigma_m *= kIonosphereOwnShare;
+      prepared.ionosphere_m =
+          ionosphere.Delay(place, place_in_ecef, prepared.satellite_in_ecef, look,
+                           epoch.time_gps_ns, prepared.frequency_hz, &ionosphere_sigma_m, kind);
     }
     if (options_.troposphere != TroposphereChoice::kNone) {
-      delay_m += TroposphereDelay(place, look.elevation_rad, epoch.time_gps_ns,
-                                  &troposphere_sigma_m);
+      prepared.troposphere_m =
+          TroposphereDelay(place, look.elevation_rad, epoch.time_gps_ns, &troposphere_sigma_m);
     }
-    prepared.atmosphere_m = delay_m;
     const double orbit_sigma_m = OrbitSigma(prepared.satellite);
-    prepared.model_sigma_m =
-        std::sqrt(orbit_sigma_m * orbit_sigma_m + ionosphere_sigma_m * ionosphere_sigma_m +
-                  troposphere_sigma_m * troposphere_sigma_m);
+    prepared.ionosphere_variance_m2 = ionosphere_sigma_m * ionosphere_sigma_m;
+    const double channel_sigma_m =
+        signal.satellite.system == System::kGlonass ? kGlonassChannelSigma_m : 0.0;
+    prepared.own_variance_m2 = orbit_sigma_m * orbit_sigma_m +
+                               troposphere_sigma_m * troposphere_sigma_m +
+                               channel_sigma_m * channel_sigma_m;
 
     RangeObservation range;
     range.point_in_ecef = prepared.satellite_in_ecef;
-    range.range_m = signal.pseudorange_m +
-                    kSpeedOfLight_mps * prepared.satellite.clock_bias_s - delay_m;
+    range.range_m = signal.pseudorange_m + kSpeedOfLight_mps * prepared.satellite.clock_bias_s -
+                    prepared.ionosphere_m - prepared.troposphere_m;
     range.clock_group = prepared.clock_group;
     SignalQuality quality;
     quality.cn0_dbhz = status.cn0_dbhz;
     quality.elevation_rad = look.elevation_rad;
     quality.reported_sigma_m = signal.Has(kHasPseudorangeSigma) ? signal.pseudorange_sigma_m : 0.0;
-    quality.model_sigma_m = prepared.model_sigma_m;
+    quality.model_sigma_m =
+        std::sqrt(prepared.own_variance_m2 +
+                  ionosphere_share * ionosphere_share * prepared.ionosphere_variance_m2);
     quality.rate_disagreement_m = rate_disagreements_m[prepared.index];
-    quality.wideband = signal.signal.band == '5' || signal.signal.band == '7' || signal.signal.band == '8';
+    quality.wideband =
+        signal.signal.band == '5' || signal.signal.band == '7' || signal.signal.band == '8';
     quality.multipath_reported = (signal.flags & kMultipathDetected) != 0;
-    range.error = weights.ErrorModel(prepared.clock_group, quality);
+    prepared.weight = weights.ErrorModel(prepared.clock_group, quality);
+    range.error = prepared.weight.error;
     status.sigma_m = range.error.sigma_m;
 
     if (signal.Has(kHasDoppler)) {
@@ -237,11 +264,56 @@ void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d&
         rate.sigma_mps = std::max(rate.sigma_mps, signal.range_rate_sigma_mps);
       }
       rates_.push_back(rate);
-      rate_signals_.push_back(used_.size());
+      rate_signals_.push_back(prepared.index);
     }
     used_.push_back(prepared);
     ranges_.push_back(range);
   }
+  if (combine) CombineBands(weights);
+}
+
+void GnssEpochModel::CombineBands(const RangeWeights& weights) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < used_.size(); ++i) {
+    if (used_[i].merged) continue;
+    PreparedSignal& first = used_[i];
+    for (std::size_t k = i + 1; k < used_.size(); ++k) {
+      const PreparedSignal& second = used_[k];
+      if (second.satellite_id != first.satellite_id || !CanCombine(first, second)) continue;
+      const int group = groups_.Group(first.satellite_id.system, first.band, second.band);
+      if (group < 0) break;
+      // How many times the delay of the first band the second one has.
+      const double ratio = first.frequency_hz / second.frequency_hz;
+      const double factor = ratio * ratio;
+      const double amplification = 1.0 / (factor - 1.0);
+      RangeObservation& range = ranges_[i];
+      range.range_m = amplification * (factor * (range.range_m + first.ionosphere_m) -
+                                       (ranges_[k].range_m + second.ionosphere_m));
+      range.clock_group = group;
+      first.weight.noise_variance_m2 =
+          amplification * amplification *
+          (factor * factor * first.weight.noise_variance_m2 + second.weight.noise_variance_m2);
+      first.weight.other_variance_m2 = first.own_variance_m2;
+      range.error.sigma_m = std::sqrt(weights.NoiseFactor(group) * first.weight.noise_variance_m2 +
+                                      first.weight.other_variance_m2);
+      first.weight.error = range.error;
+      first.partner = second.index;
+      first.clock_group = group;
+      break;
+    }
+    if (first.partner != PreparedSignal::kAlone) {
+      for (std::size_t k = i + 1; k < used_.size(); ++k) {
+        used_[k].merged = used_[k].merged || used_[k].satellite_id == first.satellite_id;
+      }
+    }
+    if (kept != i) {
+      used_[kept] = used_[i];
+      ranges_[kept] = ranges_[i];
+    }
+    ++kept;
+  }
+  used_.resize(kept);
+  ranges_.resize(kept);
 }
 
 }  // namespace lodemark

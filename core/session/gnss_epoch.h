@@ -21,8 +21,9 @@ namespace lodemark {
 // Numbers the clocks that a receiver's signals show: one per system and band.
 class ClockGroups {
  public:
-  // The group of a signal, made if it is new; -1 once there are too many.
-  int Group(System system, char band);
+  // The group of a band, or of two bands combined (second_band not blank), made if it is new; -1
+  // once there are too many.
+  int Group(System system, char band, char second_band);
   int size() const { return count_; }
   void Forget() { count_ = 0; }
 
@@ -30,6 +31,7 @@ class ClockGroups {
   struct Key {
     System system;
     char band;
+    char second_band;
   };
   std::array<Key, kMaxClockGroups> keys_ = {};
   int count_ = 0;
@@ -38,6 +40,8 @@ class ClockGroups {
 // A signal with what is known of its satellite.
 struct PreparedSignal {
   std::size_t index = 0;  // into ObservationEpoch::signals
+  SatelliteId satellite_id;
+  char band = '1';
   int clock_group = 0;
   double frequency_hz = 0.0;  // carrier
   SatelliteState satellite;
@@ -45,8 +49,16 @@ struct PreparedSignal {
   Eigen::Vector3d satellite_velocity_in_ecef = Eigen::Vector3d::Zero();  // likewise
   double elevation_rad = 0.0;
   double azimuth_rad = 0.0;
-  double atmosphere_m = 0.0;
-  double model_sigma_m = 0.0;
+  double ionosphere_m = 0.0;
+  double troposphere_m = 0.0;
+  double ionosphere_variance_m2 = 0.0;  // of the whole model error, common part included
+  double own_variance_m2 = 0.0;         // of orbit, clock and troposphere
+  WeightedModel weight;
+  // Index of the signal of another band combined with this one, or kAlone.
+  std::size_t partner = kAlone;
+  bool merged = false;  // into another signal of the satellite
+
+  static constexpr std::size_t kAlone = static_cast<std::size_t>(-1);
 };
 
 // Turns an epoch into ranges and range rates. Keeps its workspace.
@@ -74,11 +86,15 @@ class GnssEpochModel {
   const std::vector<PreparedSignal>& used_signals() const { return used_; }
   const std::vector<RangeObservation>& ranges() const { return ranges_; }  // of used_signals
   const std::vector<RangeRateObservation>& rates() const { return rates_; }
-  const std::vector<std::size_t>& rate_signals() const { return rate_signals_; }  // into used
+  const std::vector<std::size_t>& rate_signals() const { return rate_signals_; }  // of the epoch
 
   void Forget() { groups_.Forget(); }
 
  private:
+  // Replaces the signals of a satellite by one range free of the ionosphere, where two bands
+  // allow it.
+  void CombineBands(const RangeWeights& weights);
+
   SessionOptions options_;
   ClockGroups groups_;
   std::vector<PreparedSignal> prepared_;

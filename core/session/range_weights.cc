@@ -17,6 +17,11 @@ constexpr double kUsualCn0_dbhz = 40.0;  // of a receiver that reports none
 // Codes of ten times the C/A rate see that much less of both.
 constexpr double kWidebandShare = 0.35;
 
+// A surveying receiver's antenna and correlators: share of the variance, and of the odds that a
+// weak signal, weak for its low elevation, came by a longer way.
+constexpr double kSurveyNoiseShare = 0.05;
+constexpr double kSurveyLateShare = 0.05;
+
 // Variance by elevation beyond what C/N0 already tells: share that grows with 1 / sin^2.
 constexpr double kElevationShare = 0.1;
 constexpr double kSmallestSine = 0.1;
@@ -61,42 +66,45 @@ double RangeWeights::NoiseFactor(int clock_group) const {
   return (kNoisePriorCount + group.squares) / (kNoisePriorCount + group.count);
 }
 
-RangeErrorModel RangeWeights::ErrorModel(int clock_group, const SignalQuality& quality) const {
+WeightedModel RangeWeights::ErrorModel(int clock_group, const SignalQuality& quality) const {
   const Group& group = groups_[static_cast<std::size_t>(clock_group)];
   const double cn0_dbhz = quality.cn0_dbhz > 0.0 ? quality.cn0_dbhz : kUsualCn0_dbhz;
   const double sine = std::max(std::sin(quality.elevation_rad), kSmallestSine);
   const double thermal_m = kThermalAt40_m * std::pow(10.0, (40.0 - cn0_dbhz) / 20.0);
   const double share = quality.wideband ? kWidebandShare : 1.0;
-  const double noise_variance_m2 =
-      NoiseFactor(clock_group) * share * share *
-      (kMultipath_m * kMultipath_m + thermal_m * thermal_m) *
-      (1.0 - kElevationShare + kElevationShare / (sine * sine));
-  RangeErrorModel model;
-  model.sigma_m =
-      std::sqrt(noise_variance_m2 + quality.model_sigma_m * quality.model_sigma_m +
-                kDisagreementShare * quality.rate_disagreement_m * quality.rate_disagreement_m);
+  WeightedModel model;
+  model.noise_variance_m2 = share * share * (surveying_ ? kSurveyNoiseShare : 1.0) *
+                            (kMultipath_m * kMultipath_m + thermal_m * thermal_m) *
+                            (1.0 - kElevationShare + kElevationShare / (sine * sine));
+  model.other_variance_m2 =
+      quality.model_sigma_m * quality.model_sigma_m +
+      kDisagreementShare * quality.rate_disagreement_m * quality.rate_disagreement_m;
+  model.error.sigma_m =
+      std::sqrt(NoiseFactor(clock_group) * model.noise_variance_m2 + model.other_variance_m2);
 
   const double deficit_db =
       std::max(0.0, std::max(group.strongest_dbhz, kLowestReference_dbhz) - cn0_dbhz);
   const double odds = std::exp((deficit_db - kDeficitMiddle_db) / kDeficitWidth_db) *
-                      (kLatePriorCount + late_found_) / (kLatePriorCount + late_expected_);
-  model.late_probability = std::clamp(odds / (1.0 + odds), kFewestLate, kMostLate);
+                      (surveying_ ? kSurveyLateShare : 1.0) * (kLatePriorCount + late_found_) /
+                      (kLatePriorCount + late_expected_);
+  model.error.late_probability = std::clamp(odds / (1.0 + odds), kFewestLate, kMostLate);
   if (quality.multipath_reported) {
-    model.late_probability = std::min(kMostLate, model.late_probability + kMultipathReported);
+    model.error.late_probability =
+        std::min(kMostLate, model.error.late_probability + kMultipathReported);
   }
-  model.late_scale_m = std::clamp(kLateScaleAtNoDeficit_m + kLateScalePerDb_m * deficit_db,
-                                  kSmallestLateScale_m, kLargestLateScale_m);
+  model.error.late_scale_m = std::clamp(kLateScaleAtNoDeficit_m + kLateScalePerDb_m * deficit_db,
+                                        kSmallestLateScale_m, kLargestLateScale_m);
   return model;
 }
 
-void RangeWeights::Learn(int clock_group, const RangeErrorModel& model, double residual_m,
+void RangeWeights::Learn(int clock_group, const WeightedModel& model, double residual_m,
                          double redundancy_share, double core_share, double late_share) {
   Group& group = groups_[static_cast<std::size_t>(clock_group)];
-  const double u = residual_m / model.sigma_m;
+  const double u = residual_m / model.error.sigma_m;
   group.squares += core_share * u * u * NoiseFactor(clock_group);
   group.count += core_share * redundancy_share;
   late_found_ += late_share;
-  late_expected_ += model.late_probability;
+  late_expected_ += model.error.late_probability;
 }
 
 void RangeWeights::FinishEpoch() {

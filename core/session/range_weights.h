@@ -12,13 +12,20 @@ namespace lodemark {
 
 // What is known of one signal at one epoch.
 struct SignalQuality {
-  double cn0_dbhz = 0.0;          // 0 if unknown
+  double cn0_dbhz = 0.0;  // 0 if unknown
   double elevation_rad = 0.0;
-  double reported_sigma_m = 0.0;  // 0 if unknown
-  double model_sigma_m = 0.0;     // of orbit, clock and atmosphere
+  double reported_sigma_m = 0.0;     // 0 if unknown
+  double model_sigma_m = 0.0;        // of orbit, clock and atmosphere
   double rate_disagreement_m = 0.0;  // code against Doppler, 0 if unknown
-  bool wideband = false;  // a code of ten times the C/A rate
+  bool wideband = false;             // a code of ten times the C/A rate
   bool multipath_reported = false;
+};
+
+// An error model with the parts it was made of.
+struct WeightedModel {
+  RangeErrorModel error;
+  double noise_variance_m2 = 0.0;  // of the signal itself, before the learned factor
+  double other_variance_m2 = 0.0;  // of models and disagreements
 };
 
 class RangeWeights {
@@ -26,14 +33,18 @@ class RangeWeights {
   // To be called with every signal of an epoch before ErrorModel is asked.
   void NoteStrength(int clock_group, double cn0_dbhz);
 
-  RangeErrorModel ErrorModel(int clock_group, const SignalQuality& quality) const;
+  WeightedModel ErrorModel(int clock_group, const SignalQuality& quality) const;
+
+  // The receiver tracks what only surveying receivers track (GPS L2): finer code, better antenna.
+  void NoteSurveyingReceiver() { surveying_ = true; }
+  bool surveying() const { return surveying_; }
 
   // Variance of the signal's noise against the prior's, as learned.
   double NoiseFactor(int clock_group) const;
 
-  // Learns from one range of an adjusted epoch. redundancy_share: expected square of a normalised
-  // residual; core_share and late_share: the posterior over the error model.
-  void Learn(int clock_group, const RangeErrorModel& model, double residual_m,
+  // Learns from one range of an adjusted epoch. redundancy_share: expected square of a residual
+  // over its variance; core_share and late_share: the posterior over the error model.
+  void Learn(int clock_group, const WeightedModel& model, double residual_m,
              double redundancy_share, double core_share, double late_share);
   // To be called once after the ranges of an epoch were learned.
   void FinishEpoch();
@@ -46,6 +57,7 @@ class RangeWeights {
     double count = 0.0;
   };
   std::array<Group, kMaxClockGroups> groups_ = {};
+  bool surveying_ = false;
   double late_found_ = 0.0;     // posterior number of reflections
   double late_expected_ = 0.0;  // what the prior had expected
 };

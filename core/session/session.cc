@@ -226,12 +226,11 @@ void Session::Impl::SolveVelocity(const ObservationEpoch&) {
   estimate.velocity_enu_mps = enu_from_ecef * velocity.velocity_in_ecef_mps;
   estimate.velocity_covariance_enu_m2ps2 =
       enu_from_ecef * velocity.covariance_ecef_m2ps2 * enu_from_ecef.transpose();
-  estimate.speed_accuracy_mps = RadiusOfProbability(
-      estimate.velocity_covariance_enu_m2ps2.topLeftCorner<2, 2>(), 0.68);
+  estimate.speed_accuracy_mps =
+      RadiusOfProbability(estimate.velocity_covariance_enu_m2ps2.topLeftCorner<2, 2>(), 0.68);
   estimate.clock_drift_mps = velocity.clock_drift_mps;
   for (std::size_t i = 0; i < rate_verdicts.size(); ++i) {
-    SatelliteStatus& satellite =
-        statuses[model.used_signals()[model.rate_signals()[i]].index];
+    SatelliteStatus& satellite = statuses[model.rate_signals()[i]];
     satellite.has_rate_residual = true;
     satellite.range_rate_residual_mps = rate_verdicts[i].residual_mps;
   }
@@ -246,11 +245,11 @@ void Session::Impl::Learn() {
     }
   }
   if (point.redundancy <= 0) return;
-  const double share = static_cast<double>(point.redundancy) /
-                       static_cast<double>(model.used_signals().size());
+  const double share =
+      static_cast<double>(point.redundancy) / static_cast<double>(model.used_signals().size());
   for (std::size_t i = 0; i < model.used_signals().size(); ++i) {
     const PreparedSignal& prepared = model.used_signals()[i];
-    weights.Learn(prepared.clock_group, model.ranges()[i].error, verdicts[i].residual_m, share,
+    weights.Learn(prepared.clock_group, prepared.weight, verdicts[i].residual_m, share,
                   verdicts[i].weight, verdicts[i].late_share);
   }
   weights.FinishEpoch();

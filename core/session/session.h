@@ -35,7 +35,7 @@ enum class TimeBase : std::uint8_t { kBoot, kGps };
 
 struct SessionOptions {
   TimeBase time_base = TimeBase::kGps;
-  std::uint32_t systems = 0x7f;  // bit i: use System(i)
+  std::uint32_t systems = 0x7f;       // bit i: use System(i)
   double elevation_mask_rad = 0.087;  // 5 degrees
   double smallest_cn0_dbhz = 10.0;
   IonosphereChoice ionosphere = IonosphereChoice::kBest;
@@ -48,17 +48,17 @@ struct SessionOptions {
   bool height_memory = false;                 // a weak memory of the height
   bool learn_biases = true;                   // between signals and systems, from past epochs
   bool accept_unhealthy = false;
-  std::int32_t queue_capacity = 64;     // epochs that may wait for Process
+  std::int32_t queue_capacity = 64;  // epochs that may wait for Process
   std::uint64_t seed = 1;
 };
 
 enum class EstimateStatus : std::uint8_t {
   kFix,
-  kNoData,            // nothing was processed yet
+  kNoData,  // nothing was processed yet
   kTooFewSatellites,
-  kNoEphemeris,       // measurements, but no orbit for enough of them
+  kNoEphemeris,  // measurements, but no orbit for enough of them
   kNotConverged,
-  kInconsistent,      // no subset large enough agrees: no answer beats a wrong one
+  kInconsistent,  // no subset large enough agrees: no answer beats a wrong one
 };
 
 struct SessionEstimate {
@@ -74,7 +74,7 @@ struct SessionEstimate {
   double accuracy_m = 0.0;           // radius that holds the horizontal truth 68 % of the time
   double vertical_accuracy_m = 0.0;  // half-width that holds the height 68 % of the time
   double speed_accuracy_mps = 0.0;
-  double protection_level_m = 0.0;           // horizontal; 0 if none could be computed
+  double protection_level_m = 0.0;  // horizontal; 0 if none could be computed
   double vertical_protection_level_m = 0.0;
   double clock_bias_m = 0.0;  // receiver clock minus GPS time, times c
   double clock_drift_mps = 0.0;
@@ -82,9 +82,9 @@ struct SessionEstimate {
   double vdop = 0.0;
   double pdop = 0.0;
   double tdop = 0.0;
-  std::int32_t satellites_used = 0;   // distinct satellites
+  std::int32_t satellites_used = 0;  // distinct satellites
   std::int32_t satellites_seen = 0;
-  std::uint32_t sources = 0;          // bit 0: GNSS
+  std::uint32_t sources = 0;  // bit 0: GNSS
 };
 
 enum class SatelliteVerdict : std::uint8_t {
@@ -127,7 +127,7 @@ enum class EventKind : std::uint8_t {
   kDuplicateEpoch,      // the same time twice: the second dropped
   kFirstFix,
   kFixLost,
-  kEphemerisMissing,    // first time that no orbit was found for a satellite
+  kEphemerisMissing,  // first time that no orbit was found for a satellite
 };
 
 struct SessionEvent {
