@@ -46,12 +46,13 @@ lodemark_status Translate(const lodemark_range& from, Where where, RangeObservat
   check.Point(from.point_in_ecef_m, "point_in_ecef_m");
   check.Within(from.range_m, -kLargestLength_m, kLargestLength_m, "range_m");
   check.Within(from.sigma_m, kSmallestSigma_m, kLargestLength_m, "sigma_m");
+  if (check.status() != LODEMARK_OK) return check.status();
   to->point_in_ecef = Eigen::Map<const Eigen::Vector3d>(from.point_in_ecef_m);
   to->range_m = from.range_m;
   to->error.sigma_m = from.sigma_m;
   const bool has_clock = from.clock_group != LODEMARK_CLOCK_GROUP_NONE;
   to->clock_group = has_clock ? from.clock_group - 1 : kNoClock;
-  return check.status();
+  return LODEMARK_OK;
 }
 
 lodemark_status ReadStart(const lodemark_solve_options* options,

@@ -436,6 +436,7 @@ TEST_F(MisuseTest, UnknownConstantsAndBitsAreUnsupportedAndNonsenseIsInvalid) {
   const Call solve = [&] { return Solve(); };
   Expect(&ranges_[0], &lodemark_range::clock_group, -1, kInvalid, "clock_group", solve);
   Expect(&ranges_[0], &lodemark_range::clock_group, 17, kInvalid, "clock_group", solve);
+  Expect(&ranges_[0], &lodemark_range::clock_group, INT32_MIN, kInvalid, "clock_group", solve);
   Expect(&ranges_[0], &lodemark_range::sigma_m, 0.0, kInvalid, "sigma_m", solve);
   Expect(&ranges_[0], &lodemark_range::sigma_m, -1.0, kInvalid, "sigma_m", solve);
   Expect(&ranges_[0], &lodemark_range::range_m, 1e300, kInvalid, "range_m", solve);
