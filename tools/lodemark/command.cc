@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "core/geo/time.h"
+#include "tools/lodemark/output_file.h"
 
 namespace lodemark {
 namespace {
@@ -50,6 +51,10 @@ std::string GroupDigits(std::int64_t number) {
   return text;
 }
 
+std::string Counted(std::int64_t number, std::string_view noun) {
+  return GroupDigits(number) + " " + std::string(noun) + (number == 1 ? "" : "s");
+}
+
 std::string CalendarText(std::int64_t time_gps_ns) {
   const CalendarTime c = CalendarFromNanoseconds(time_gps_ns);
   return Format("%04d-%02d-%02d %02d:%02d:%02d", c.year, c.month, c.day, c.hour, c.minute,
@@ -86,25 +91,11 @@ bool StdoutIsTerminal() { return MayDecorate(STDOUT_FILENO); }
 bool StderrIsTerminal() { return MayDecorate(STDERR_FILENO); }
 
 Status WriteFileWhole(const std::string& path, std::string_view content) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    return Error{ErrorCode::kIo, path + ": is a folder; name a file to write"};
-  }
-  // Devices and pipes cannot be replaced by renaming: write into them.
-  const bool special =
-      std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored);
-  const std::string written = special ? path : path + ".part";
-  std::FILE* file = std::fopen(written.c_str(), "wb");
-  if (file == nullptr) return SystemError(path, "cannot be written", errno);
-  const bool complete = std::fwrite(content.data(), 1, content.size(), file) == content.size();
-  int failure = complete ? 0 : errno;
-  if (std::fclose(file) != 0 && failure == 0) failure = errno;
-  if (failure == 0 && !special && std::rename(written.c_str(), path.c_str()) != 0) failure = errno;
-  if (failure != 0) {
-    if (!special) std::remove(written.c_str());
-    return SystemError(path, "cannot be written", failure);
-  }
-  return {};
+  OutputFile file;
+  const Status opened = file.Open(path);
+  if (!opened.ok()) return opened;
+  file.Append(content);
+  return file.Finish();
 }
 
 Result<std::string> ReadFileWhole(const std::string& path, std::size_t limit_bytes) {

@@ -1,6 +1,7 @@
 // What every subcommand shares: exit codes, messages, formatting, and writing files safely.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,9 @@ std::string VersionText();  // "0.1.0"
 
 // "12,345"
 std::string GroupDigits(std::int64_t number);
+
+// "1 row", "12,345 rows"
+std::string Counted(std::int64_t number, std::string_view noun);
 
 // "2024-05-01 08:00:00" in GPS time.
 std::string CalendarText(std::int64_t time_gps_ns);

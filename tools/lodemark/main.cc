@@ -29,6 +29,7 @@ int Run(int argument_count, char** arguments) {
 
   int exit_code = kExitGood;
   AddCompareCommand(app, &exit_code);
+  AddLogCommand(app, &exit_code);
   AddReportCommand(app, &exit_code);
   AddSimulateCommand(app, &exit_code);
 

@@ -9,6 +9,7 @@ class App;
 namespace lodemark {
 
 void AddCompareCommand(CLI::App& app, int* exit_code);
+void AddLogCommand(CLI::App& app, int* exit_code);
 void AddReportCommand(CLI::App& app, int* exit_code);
 void AddSimulateCommand(CLI::App& app, int* exit_code);
 

@@ -1,0 +1,148 @@
+#include "tools/lodemark/replay_inputs.h"
+
+#include <filesystem>
+
+#include "core/logs/recording.h"
+
+namespace lodemark {
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = ReplayInputs::Measurements;
+
+// The option that takes a file of this kind, and what the kind is called.
+struct KindUse {
+  const char* name;
+  const char* option;
+};
+
+KindUse UseOf(FileKind kind) {
+  switch (kind) {
+    case FileKind::kGnssLog:
+      return {"a GnssLogger text", "--log"};
+    case FileKind::kDeviceGnss:
+    case FileKind::kDerived:
+      return {"a Kaggle csv", "--log"};
+    case FileKind::kRinexObservation:
+      return {"a RINEX observation file", "--obs"};
+    case FileKind::kRinexNavigation:
+      return {"a RINEX navigation file", "--nav"};
+    case FileKind::kSp3:
+      return {"an SP3 file", "--sp3"};
+    case FileKind::kTrajectory:
+      return {"a trajectory", nullptr};
+    case FileKind::kUnknown:
+      break;
+  }
+  return {"a file of unknown kind", nullptr};
+}
+
+// A file that cannot be told by its first lines goes on to its reader, which says what is wrong. A
+// pipe can be read only once, so it does too.
+Result<FileKind> KindOf(const std::string& path, FileKind otherwise) {
+  std::error_code ignored;
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored) &&
+      !fs::is_directory(path, ignored)) {
+    return otherwise;
+  }
+  const Result<FileKind> kind = SniffFile(path);
+  if (kind && *kind == FileKind::kUnknown) return otherwise;
+  return kind;
+}
+
+Status CheckKind(const std::string& path, FileKind expected, const char* option) {
+  const Result<FileKind> kind = KindOf(path, expected);
+  if (!kind) return kind.error();
+  const KindUse use = UseOf(*kind);
+  if (use.option != nullptr && std::string_view(use.option) == option) return {};
+  return Error{ErrorCode::kBadData, path + ": is " + use.name +
+                                        (use.option != nullptr
+                                             ? std::string("; name it with ") + use.option
+                                             : std::string("; name ") + UseOf(expected).name)};
+}
+
+Status FromFile(const std::string& path, FileKind expected, const char* option,
+                ReplayInputs* inputs) {
+  const Status checked = CheckKind(path, expected, option);
+  if (!checked.ok()) return checked;
+  const Result<FileKind> kind = KindOf(path, expected);
+  if (!kind) return kind.error();
+  inputs->measurements = path;
+  inputs->name = fs::path(path).filename().string();
+  inputs->kind = *kind == FileKind::kRinexObservation ? Kind::kObservation
+                 : *kind == FileKind::kGnssLog        ? Kind::kGnssLog
+                                                      : Kind::kKaggle;
+  return {};
+}
+
+Status FromFolder(const std::string& folder, ReplayInputs* inputs) {
+  std::error_code ignored;
+  if (fs::is_regular_file(folder, ignored)) {
+    const Result<FileKind> kind = SniffFile(folder);
+    if (!kind) return kind.error();
+    const char* option = UseOf(*kind).option;
+    return Error{ErrorCode::kBadData,
+                 folder + ": is a file and no recording folder; " +
+                     (option != nullptr ? std::string("name it with ") + option
+                                        : std::string("name its folder"))};
+  }
+  const Result<Recording> recording = OpenRecording(folder);
+  if (!recording) return recording.error();
+  inputs->name = recording->name;
+  inputs->remarks = recording->problems;
+  inputs->navigation = recording->Files("navigation");
+  inputs->precise_orbits = recording->Files("precise_orbits");
+  const struct {
+    const char* role;
+    Kind kind;
+  } choices[] = {{"gnss_log", Kind::kGnssLog},
+                 {"observation", Kind::kObservation},
+                 {"device_gnss", Kind::kKaggle},
+                 {"derived", Kind::kKaggle}};
+  for (const auto& [role, kind] : choices) {
+    const std::vector<std::string>& files = recording->Files(role);
+    if (files.empty()) continue;
+    inputs->measurements = files.front();
+    inputs->kind = kind;
+    if (files.size() > 1) {
+      inputs->remarks.push_back(folder + ": holds " + std::to_string(files.size()) + " files as " +
+                                role + "; the first, " +
+                                fs::path(files.front()).filename().string() +
+                                ", is replayed: name another with --obs or --log");
+    }
+    return {};
+  }
+  return Error{ErrorCode::kBadData,
+               folder +
+                   ": has no measurements; a recording needs a GnssLogger text, a RINEX "
+                   "observation file or a Kaggle csv"};
+}
+
+}  // namespace
+
+Result<ReplayInputs> FindReplayInputs(const ReplayRequest& request) {
+  ReplayInputs inputs;
+  Status found;
+  if (!request.recording.empty()) {
+    found = FromFolder(request.recording, &inputs);
+  } else if (!request.log.empty()) {
+    found = FromFile(request.log, FileKind::kGnssLog, "--log", &inputs);
+  } else {
+    found = FromFile(request.observation, FileKind::kRinexObservation, "--obs", &inputs);
+  }
+  if (!found.ok()) return found.error();
+  for (const std::string& path : request.navigation) {
+    const Status checked = CheckKind(path, FileKind::kRinexNavigation, "--nav");
+    if (!checked.ok()) return checked.error();
+    inputs.navigation.push_back(path);
+  }
+  for (const std::string& path : request.precise_orbits) {
+    const Status checked = CheckKind(path, FileKind::kSp3, "--sp3");
+    if (!checked.ok()) return checked.error();
+    inputs.precise_orbits.push_back(path);
+  }
+  if (request.broadcast_only) inputs.precise_orbits.clear();
+  return inputs;
+}
+
+}  // namespace lodemark

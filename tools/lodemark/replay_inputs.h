@@ -1,0 +1,35 @@
+// Which files a replay reads: those of a recording, or those named one by one.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace lodemark {
+
+// What the command line names.
+struct ReplayRequest {
+  std::string recording;  // a folder; or one of the next two
+  std::string log;
+  std::string observation;
+  std::vector<std::string> navigation;
+  std::vector<std::string> precise_orbits;
+  bool broadcast_only = false;
+};
+
+struct ReplayInputs {
+  enum class Measurements { kGnssLog, kObservation, kKaggle };
+
+  std::string name;  // of the recording, or of the file
+  Measurements kind = Measurements::kGnssLog;
+  std::string measurements;
+  std::vector<std::string> navigation;
+  std::vector<std::string> precise_orbits;
+  std::vector<std::string> remarks;  // what the user should know, one sentence each
+};
+
+// Looks into the files' first lines only. Errors name the file and say what to do.
+Result<ReplayInputs> FindReplayInputs(const ReplayRequest& request);
+
+}  // namespace lodemark

@@ -1,0 +1,177 @@
+#include "tools/lodemark/replay_measurements.h"
+
+#include <deque>
+#include <optional>
+
+#include "core/logs/gnss_logger.h"
+#include "core/logs/kaggle_gnss.h"
+#include "core/logs/rinex_observation.h"
+
+namespace lodemark {
+namespace {
+
+// GnssStatus.CONSTELLATION_GPS to CONSTELLATION_IRNSS.
+constexpr std::int32_t kFirstConstellation = 1;
+constexpr std::int32_t kLastConstellation = 7;
+
+// Messages that wait for the first epoch with a GPS time; a phone gets one or two in a second.
+constexpr std::size_t kMostWaitingMessages = 10'000;
+
+std::int64_t CountUnknown(const AndroidEpoch& epoch) {
+  std::int64_t count = 0;
+  for (const AndroidMeasurement& measurement : epoch.measurements) {
+    if (measurement.constellation_type < kFirstConstellation ||
+        measurement.constellation_type > kLastConstellation) {
+      ++count;
+    }
+  }
+  return count;
+}
+
+std::string FirstProblemOf(const ReadReport& report) {
+  if (report.problems.empty()) return "";
+  const ReadProblem& problem = report.problems.front();
+  return "; the first malformed row is line " + std::to_string(problem.line) + ": " +
+         problem.message;
+}
+
+class GnssLogSource final : public MeasurementSource {
+ public:
+  explicit GnssLogSource(GnssLoggerReader reader) : reader_(std::move(reader)) {}
+
+  const ReadReport& report() const override { return reader_.report(); }
+  double progress() const override { return reader_.progress(); }
+
+  Status Verdict() const override {
+    if (!reader_.status().ok() || counts_.epochs > 0) return reader_.status();
+    const auto raw = reader_.row_counts().find("Raw");
+    if (raw == reader_.row_counts().end() || raw->second == 0) {
+      return Error{ErrorCode::kBadData,
+                   report().file +
+                       ": holds no Raw row; name a GnssLogger text that was recorded with raw "
+                       "measurements switched on"};
+    }
+    return Error{ErrorCode::kBadData, report().file + ": none of its " +
+                                          std::to_string(raw->second) + " Raw rows can be used" +
+                                          FirstProblemOf(report())};
+  }
+
+  bool PushNext(ReplaySession* session) override {
+    while (reader_.Next(&record_)) {
+      if (const auto* epoch = std::get_if<AndroidEpoch>(&record_)) {
+        // The message just before an epoch is younger than the epoch before.
+        PushWaiting(session);
+        counts_.unknown_constellation += CountUnknown(*epoch);
+        Count(session->Push(*epoch));
+        return true;
+      }
+      if (const auto* message = std::get_if<LoggedNavigationMessage>(&record_)) {
+        if (waiting_.size() == kMostWaitingMessages) {
+          waiting_.pop_front();
+          ++counts_.broadcast_refused;
+        }
+        waiting_.push_back(*message);
+      }
+    }
+    return false;
+  }
+
+ private:
+  void PushWaiting(ReplaySession* session) {
+    while (!waiting_.empty()) {
+      const Status pushed = session->Push(waiting_.front());
+      if (!pushed.ok() && pushed.error().code == ErrorCode::kOutOfOrder) return;
+      ++(pushed.ok() ? counts_.broadcast_taken : counts_.broadcast_refused);
+      waiting_.pop_front();
+    }
+  }
+
+  GnssLoggerReader reader_;
+  GnssLoggerRecord record_;
+  std::deque<LoggedNavigationMessage> waiting_;
+};
+
+class KaggleSource final : public MeasurementSource {
+ public:
+  explicit KaggleSource(KaggleGnssReader reader) : reader_(std::move(reader)) {}
+
+  const ReadReport& report() const override { return reader_.report(); }
+  double progress() const override { return reader_.progress(); }
+
+  Status Verdict() const override {
+    if (!reader_.status().ok() || counts_.epochs > 0) return reader_.status();
+    return Error{ErrorCode::kBadData,
+                 report().file + ": holds no usable measurement" + FirstProblemOf(report())};
+  }
+
+  bool PushNext(ReplaySession* session) override {
+    if (!reader_.Next(&epoch_)) return false;
+    counts_.unknown_constellation += CountUnknown(epoch_.raw);
+    Count(session->Push(epoch_.raw));
+    return true;
+  }
+
+ private:
+  KaggleGnssReader reader_;
+  KaggleEpoch epoch_;
+};
+
+class ObservationSource final : public MeasurementSource {
+ public:
+  explicit ObservationSource(RinexObservationReader reader) : reader_(std::move(reader)) {}
+
+  const ReadReport& report() const override { return reader_.report(); }
+  double progress() const override { return reader_.progress(); }
+
+  Status Verdict() const override {
+    if (!reader_.status().ok() || counts_.epochs > 0) return reader_.status();
+    return Error{ErrorCode::kBadData, report().file +
+                                          ": has a header but no epoch of observations" +
+                                          FirstProblemOf(report())};
+  }
+
+  bool PushNext(ReplaySession* session) override {
+    if (!reader_.Next(&epoch_)) return false;
+    Count(session->Push(epoch_));
+    return true;
+  }
+
+ private:
+  RinexObservationReader reader_;
+  ObservationEpoch epoch_;
+};
+
+template <typename Source, typename Reader>
+Result<std::unique_ptr<MeasurementSource>> SourceOf(Result<Reader> reader) {
+  if (!reader) {
+    Error error = reader.error();
+    // What this version cannot read is the file's fault here, not the command line's.
+    if (error.code == ErrorCode::kUnsupported) error.code = ErrorCode::kBadData;
+    return error;
+  }
+  return std::unique_ptr<MeasurementSource>(std::make_unique<Source>(std::move(reader).value()));
+}
+
+}  // namespace
+
+void MeasurementSource::Count(const Status& pushed) {
+  if (pushed.ok()) {
+    ++counts_.epochs;
+    return;
+  }
+  if (counts_.epochs_refused++ == 0) counts_.first_refusal = pushed.error().message;
+}
+
+Result<std::unique_ptr<MeasurementSource>> OpenMeasurements(const ReplayInputs& inputs) {
+  switch (inputs.kind) {
+    case ReplayInputs::Measurements::kObservation:
+      return SourceOf<ObservationSource>(RinexObservationReader::Open(inputs.measurements));
+    case ReplayInputs::Measurements::kKaggle:
+      return SourceOf<KaggleSource>(KaggleGnssReader::Open(inputs.measurements));
+    case ReplayInputs::Measurements::kGnssLog:
+      break;
+  }
+  return SourceOf<GnssLogSource>(GnssLoggerReader::Open(inputs.measurements));
+}
+
+}  // namespace lodemark

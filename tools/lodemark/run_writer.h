@@ -1,0 +1,56 @@
+// Writes a run folder while a replay goes on (docs/formats.md): every epoch is on disk soon after
+// it was processed.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/base/result.h"
+#include "core/geo/geodetic.h"
+#include "core/logs/trajectory.h"
+#include "lodemark/lodemark.h"
+#include "tools/lodemark/row_writer.h"
+
+namespace lodemark {
+
+// The words of the files for outcomes, verdicts and kinds of events.
+const char* OutcomeWord(std::int32_t outcome);
+const char* VerdictWord(std::int32_t verdict);
+const char* EventWord(std::int32_t kind);
+
+// A folder that is missing, empty, or holds an earlier run may be written to.
+Status CheckRunFolder(const std::string& folder);
+
+class RunWriter {
+ public:
+  // Makes the folder where needed, and takes out what an earlier run left.
+  Status Open(const std::string& folder);
+
+  // An estimate with a GPS time, and the signals it was made from.
+  void WriteEpoch(const lodemark_estimate& estimate, std::span<const lodemark_satellite> signals);
+  void WriteEvents(std::span<const lodemark_event> events);
+
+  // The first failure to write.
+  Status Finish();
+  bool ok() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void WriteTrajectory(const lodemark_estimate& estimate);
+  void WritePlace(const lodemark_estimate& estimate);
+  void FlushNowAndThen();
+  void FlushAll();
+
+  RowWriter trajectory_;
+  RowWriter places_;  // trajectory.tum
+  RowWriter satellites_;
+  RowWriter events_;
+  TrajectoryPoint point_;
+  std::optional<EnuFrame> frame_;  // at the first estimate
+  Clock::time_point flushed_;
+};
+
+}  // namespace lodemark
