@@ -141,7 +141,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::uint32_t kind = Take(&input, 1);
     const auto svid = static_cast<std::int32_t>(Take(&input, 1)) - 2;
     time_gps_ns += static_cast<std::int64_t>(Take(&input, 1)) * 1'000'000'000;
-    const std::size_t length = std::min<std::size_t>(Take(&input, 1) % 64, input.size());
+    const std::size_t wanted = Take(&input, 1) % 64;
+    const std::size_t length = std::min(wanted, input.size());
     std::vector<std::uint8_t> bytes(input.begin(),
                                     input.begin() + static_cast<std::ptrdiff_t>(length));
     input = input.subspan(length);
