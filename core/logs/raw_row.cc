@@ -21,11 +21,11 @@ constexpr std::int64_t kLargestElapsed_ms = 100'000'000'000;  // 3 years; a UTC 
 // Ranges outside which a value says nothing. They only keep nonsense out: what is usable is
 // decided where the measurement is used.
 constexpr double kLargestBias_ns = 1e9;
-constexpr double kLargestUncertainty_ns = 1e18;  // chips report 6e9 before the first fix
-constexpr double kLargestDrift_nsps = 1e6;       // 1000 parts per million
-constexpr double kLargestRate_mps = 50'000.0;    // orbit and a drift of 150 parts per million
+constexpr double kLargestUncertainty_ns = 1e18;      // chips report 6e9 before the first fix
+constexpr double kLargestDrift_nsps = 1e6;           // 1000 parts per million
+constexpr double kLargestRate_mps = 50'000.0;        // orbit and a drift of 150 parts per million
 constexpr double kLargestRateUncertainty_mps = 1e9;  // the speed of light means "unknown"
-constexpr double kLargestDeltaRange_m = 1e12;  // years of drift
+constexpr double kLargestDeltaRange_m = 1e12;        // years of drift
 constexpr double kLargestDeltaRangeUncertainty_m = 1e6;
 constexpr double kLargestCn0_dbhz = 80.0;
 constexpr double kLowestCarrier_hz = 1e8;
