@@ -4,10 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fusion/protection.h"
 #include "core/fusion/range_error.h"
 
 namespace lodemark {
 namespace {
+
+// Ranges in doubt, in sum of probabilities, below which mode and mean are one.
+constexpr double kDoubtful = 0.1;
+
+// Reflections last and come in families, so an epoch with many tells less than independent errors
+// would: the covariance grows by this much times their share.
+constexpr double kReflectionsAlike = 3.0;
 
 constexpr double kConverged_m = 1e-4;
 constexpr double kUnknownBias_m = 1e4;  // a sigma beyond which a bias counts as not known
@@ -171,7 +179,7 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
   for (const PointProblem::Row& row : problem.rows()) {
     doubtful += 1.0 - EvaluateRangeError(row.error, problem.Residual(row)).core_share;
   }
-  if (options.posterior_mean && redundancy > 0 && problem.clocks() > 0 && doubtful > 0.1) {
+  if (options.posterior_mean && redundancy > 0 && problem.clocks() > 0 && doubtful > kDoubtful) {
     if (!sampling_) sampling_.emplace(options.posterior_samples);
     Eigen::Matrix4d proposal = 6.0 * covariance.topLeftCorner<4, 4>();
     proposal += Eigen::Vector4d(25.0, 25.0, 50.0, 25.0).asDiagonal();
@@ -204,6 +212,8 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
 
   double explained = 0.0;  // rows whose error is noise or a reflection
   double ordinary = 0.0;   // rows whose error is noise
+  double late = 0.0;
+  weights_.assign(observations.size(), 0.0);
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const PointProblem::Row& row = problem.rows()[i];
     ObservationVerdict& verdict = (*verdicts)[i];
@@ -217,12 +227,32 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
     if (verdict.used) ++estimate->used;
     explained += terms.core_share + terms.late_share;
     ordinary += terms.core_share;
+    late += terms.late_share;
+    weights_[i] = terms.core_share / (row.error.sigma_m * row.error.sigma_m);
   }
   const double needed = static_cast<double>(observations.size()) - redundancy;
   if (explained < needed + (redundancy > 0 ? kAgreeingBeyondNeeded : 0.0) ||
       ordinary < kFewestOrdinary) {
     return estimate->status = PointStatus::kInconsistent;
   }
+
+  const double growth = 1.0 + kReflectionsAlike * late / static_cast<double>(observations.size());
+  estimate->covariance_enu_m2 *= growth;
+  estimate->clock_variance_m2 *= growth;
+  Normals at_solution(problem.unknowns());
+  ModelNormals(problem, &at_solution.matrix, &at_solution.right);
+  const double trace_m2 = covariance.topLeftCorner<3, 3>().trace();
+  const double spread_factor =
+      std::sqrt(std::max(1.0, estimate->covariance_enu_m2.trace() / trace_m2));
+  const ProtectionLevels levels = SeparationLevels(problem, at_solution.matrix, weights_,
+                                                   spread_factor, options.integrity_risk);
+  estimate->protection_level_m = levels.horizontal_m;
+  estimate->vertical_protection_level_m = levels.vertical_m;
+  const DilutionOfPrecision dilution = Dilution(problem, weights_, kUnknownBias_m);
+  estimate->hdop = dilution.horizontal;
+  estimate->vdop = dilution.vertical;
+  estimate->pdop = dilution.position;
+  estimate->tdop = dilution.time;
   return estimate->status = PointStatus::kGood;
 }
 

@@ -26,7 +26,7 @@ struct PointOptions {
   int largest_iterations = 20;
   // Posterior mean over the whole error model instead of its mode wherever some ranges disagree.
   bool posterior_mean = true;
-  int posterior_samples = 1024;
+  int posterior_samples = 256;  // a round
   std::optional<HeightPrior> height;
   // Probability of the risk that the protection levels leave.
   double integrity_risk = 1e-5;
@@ -72,6 +72,7 @@ class PointAdjustment {
 
  private:
   std::vector<PointProblem::Row> rows_;
+  std::vector<double> weights_;
   std::optional<PosteriorSampling> sampling_;
 };
 

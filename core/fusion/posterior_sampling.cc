@@ -5,10 +5,14 @@
 #include <cmath>
 
 #include "core/base/units.h"
-#include "core/fusion/range_error.h"
 
 namespace lodemark {
 namespace {
+
+constexpr int kMostRounds = 6;
+
+// Share of the samples that must be effective for a round to be the last.
+constexpr double kEnough = 0.3;
 
 double RadicalInverse(int index, int base) {
   double result = 0.0;
@@ -48,10 +52,11 @@ PosteriorMoments PosteriorSampling::Round(const PointProblem& problem, const Eig
     points_[s] = point;
     double log_density = 0.0;
     double product = 1.0;
-    for (const PointProblem::Row& row : problem.rows()) {
-      double residual_m = problem.Residual(row) + row.direction.dot(point.head<3>());
-      if (row.clock >= 0) residual_m -= point[3];
-      product *= RangeErrorDensity(row.error, residual_m);
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      const Line& line = lines_[i];
+      const double residual_m =
+          line.residual_m + line.direction.dot(point.head<3>()) - line.clock * point[3];
+      product *= tables_[i](residual_m);
       if (product < 1e-200) {
         log_density += std::log(product);
         product = 1.0;
@@ -86,12 +91,24 @@ PosteriorMoments PosteriorSampling::Round(const PointProblem& problem, const Eig
 
 PosteriorMoments PosteriorSampling::Run(const PointProblem& problem,
                                         const Eigen::Matrix4d& proposal) {
-  const PosteriorMoments first = Round(problem, Eigen::Vector4d::Zero(), proposal);
-  // A few lucky samples must not narrow the second round to nothing.
-  const double keep = 1.0 / std::max(1.0, first.effective_samples / 8.0);
-  const Eigen::Matrix4d second =
-      1.5 * first.covariance + 0.25 * keep * proposal + 0.01 * Eigen::Matrix4d::Identity();
-  return Round(problem, first.mean, second);
+  tables_.resize(problem.rows().size());
+  lines_.resize(problem.rows().size());
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const PointProblem::Row& row = problem.rows()[i];
+    tables_[i].Fill(row.error);
+    lines_[i] = {row.direction, problem.Residual(row), row.clock < 0 ? 0.0 : 1.0};
+  }
+  PosteriorMoments moments = Round(problem, Eigen::Vector4d::Zero(), proposal);
+  const double enough = kEnough * static_cast<double>(points_.size());
+  for (int round = 1; round < kMostRounds; ++round) {
+    // A few lucky samples must not narrow the next round to nothing.
+    const double keep = 1.0 / std::max(1.0, moments.effective_samples / 8.0);
+    const Eigen::Matrix4d covariance =
+        1.5 * moments.covariance + 0.25 * keep * proposal + 0.01 * Eigen::Matrix4d::Identity();
+    moments = Round(problem, moments.mean, covariance);
+    if (moments.effective_samples > enough) break;
+  }
+  return moments;
 }
 
 }  // namespace lodemark

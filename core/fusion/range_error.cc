@@ -67,4 +67,6 @@ double RangeErrorDensity(const RangeErrorModel& model, double error_m) {
          model.late_probability * parts.late_pm + kGrossDensity_pm;
 }
 
+double GrossErrorDensity() { return kGrossDensity_pm; }
+
 }  // namespace lodemark

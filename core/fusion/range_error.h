@@ -17,7 +17,10 @@ struct RangeErrorTerms {
 
 RangeErrorTerms EvaluateRangeError(const RangeErrorModel& model, double error_m);
 
-// Only the density; for evaluations by the thousand.
+// Only the density.
 double RangeErrorDensity(const RangeErrorModel& model, double error_m);
+
+// What the density falls to far from zero, per metre.
+double GrossErrorDensity();
 
 }  // namespace lodemark
