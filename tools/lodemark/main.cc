@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <new>
 
 #include "tools/lodemark/command.h"
 #include "tools/lodemark/subcommands.h"
@@ -30,6 +31,7 @@ int Run(int argument_count, char** arguments) {
   int exit_code = kExitGood;
   AddCompareCommand(app, &exit_code);
   AddLogCommand(app, &exit_code);
+  AddReplayCommand(app, &exit_code);
   AddReportCommand(app, &exit_code);
   AddSimulateCommand(app, &exit_code);
 
@@ -52,6 +54,9 @@ int Run(int argument_count, char** arguments) {
 int main(int argument_count, char** arguments) {
   try {
     return lodemark::Run(argument_count, arguments);
+  } catch (const std::bad_alloc&) {
+    lodemark::PrintMessage("out of memory; give it fewer or smaller files");
+    return lodemark::kExitInput;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "lodemark: this is a bug in lodemark, please report it: %s\n",
                  error.what());
