@@ -67,7 +67,7 @@ std::optional<PreciseState> InterpolatePrecise(const std::vector<PreciseSample>&
   if (!window) return std::nullopt;
   const PreciseSample& begin = samples[window->before];
   const PreciseSample& end = samples[window->before + 1];
-  if (!begin.has_clock || !end.has_clock) return std::nullopt;
+  if (!begin.has_clock || !end.has_clock || end.clock_event) return std::nullopt;
 
   // Neville's scheme for value and derivative, in the earth-fixed frame of the time asked for kept
   // still: there the path is smooth, while the rotating frame adds its own turns.

@@ -36,7 +36,8 @@ struct PreciseState {
 
 // Polynomial interpolation of the positions through eleven samples, as nearly centred as the table
 // allows, and linear interpolation of the clocks, at time_gps_ns + fraction_s. Empty where the
-// table does not reach, has a gap or a manoeuvre within the samples it needs, or lacks the clock.
+// table does not reach, has a gap or a manoeuvre within the samples it needs, lacks the clock or
+// says that it jumped.
 // It never extrapolates: one interval beyond its end the polynomial makes a metre of a millimetre's
 // rounding.
 std::optional<PreciseState> InterpolatePrecise(const std::vector<PreciseSample>& samples,

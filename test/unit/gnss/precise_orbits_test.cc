@@ -120,6 +120,13 @@ TEST(InterpolatePrecise, IsEmptyWithoutAClock) {
   EXPECT_TRUE(InterpolatePrecise(table, table[5].time_gps_ns, 0.0).has_value());
 }
 
+TEST(InterpolatePrecise, IsEmptyWhereTheClockJumps) {
+  std::vector<PreciseSample> table = Table(15, kFiveMinutes_ns);
+  table[7].clock_event = true;  // at some time after sample 6
+  EXPECT_FALSE(InterpolatePrecise(table, table[7].time_gps_ns - 1, 0.0).has_value());
+  EXPECT_TRUE(InterpolatePrecise(table, table[7].time_gps_ns + 1, 0.0).has_value());
+}
+
 TEST(PreciseInSatelliteOrbits, ComesFirstWhereItCovers) {
   SatelliteOrbits orbits;
   const SatelliteId satellite = Orbit().satellite;
