@@ -55,10 +55,10 @@ Status CheckKind(const std::string& path, FileKind expected, const char* option)
   if (!kind) return kind.error();
   const KindUse use = UseOf(*kind);
   if (use.option != nullptr && std::string_view(use.option) == option) return {};
-  return Error{ErrorCode::kBadData, path + ": is " + use.name +
-                                        (use.option != nullptr
-                                             ? std::string("; name it with ") + use.option
-                                             : std::string("; name ") + UseOf(expected).name)};
+  return Error{ErrorCode::kBadData,
+               path + ": is " + use.name +
+                   (use.option != nullptr ? std::string("; name it with ") + use.option
+                                          : std::string("; name ") + UseOf(expected).name)};
 }
 
 Status FromFile(const std::string& path, FileKind expected, const char* option,
@@ -81,10 +81,9 @@ Status FromFolder(const std::string& folder, ReplayInputs* inputs) {
     const Result<FileKind> kind = SniffFile(folder);
     if (!kind) return kind.error();
     const char* option = UseOf(*kind).option;
-    return Error{ErrorCode::kBadData,
-                 folder + ": is a file and no recording folder; " +
-                     (option != nullptr ? std::string("name it with ") + option
-                                        : std::string("name its folder"))};
+    return Error{ErrorCode::kBadData, folder + ": is a file and no recording folder; " +
+                                          (option != nullptr ? std::string("name it with ") + option
+                                                             : std::string("name its folder"))};
   }
   const Result<Recording> recording = OpenRecording(folder);
   if (!recording) return recording.error();

@@ -125,9 +125,9 @@ class ObservationSource final : public MeasurementSource {
 
   Status Verdict() const override {
     if (!reader_.status().ok() || counts_.epochs > 0) return reader_.status();
-    return Error{ErrorCode::kBadData, report().file +
-                                          ": has a header but no epoch of observations" +
-                                          FirstProblemOf(report())};
+    return Error{
+        ErrorCode::kBadData,
+        report().file + ": has a header but no epoch of observations" + FirstProblemOf(report())};
   }
 
   bool PushNext(ReplaySession* session) override {

@@ -153,8 +153,8 @@ Status ReplaySession::PushPreciseOrbits(const std::string& name, const std::stri
                                         lodemark_read_report* report) {
   *report = {};
   report->struct_size = sizeof *report;
-  return ToStatus(lodemark_session_push_precise_orbits(session_.get(), name.c_str(),
-                                                       content.data(), content.size(), report));
+  return ToStatus(lodemark_session_push_precise_orbits(session_.get(), name.c_str(), content.data(),
+                                                       content.size(), report));
 }
 
 Status ReplaySession::Push(const AndroidEpoch& epoch) {

@@ -13,19 +13,18 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr auto kLongestUnwritten = std::chrono::milliseconds(200);
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 constexpr const char* kFiles[] = {"trajectory.csv", "trajectory.tum", "satellites.csv",
                                   "events.jsonl",   "summary.json",   "run.json"};
 
 constexpr const char* kVerdictWords[] = {
-    "used",           "down_weighted", "no_ephemeris", "ephemeris_too_old", "unhealthy",
-    "low_elevation",  "weak_signal",   "not_tracking", "time_ambiguous",    "implausible",
-    "outlier",        "system_off",    "unknown_signal", "unobservable"};
+    "used",          "down_weighted", "no_ephemeris",   "ephemeris_too_old", "unhealthy",
+    "low_elevation", "weak_signal",   "not_tracking",   "time_ambiguous",    "implausible",
+    "outlier",       "system_off",    "unknown_signal", "unobservable"};
 static_assert(std::size(kVerdictWords) == LODEMARK_VERDICT_UNOBSERVABLE + 1);
 
-constexpr const char* kOutcomeWords[] = {"no_data",       "fix",          "too_few_satellites",
-                                         "no_ephemeris",  "not_converged", "inconsistent",
+constexpr const char* kOutcomeWords[] = {"no_data",      "fix",           "too_few_satellites",
+                                         "no_ephemeris", "not_converged", "inconsistent",
                                          "ambiguous"};
 static_assert(std::size(kOutcomeWords) == LODEMARK_OUTCOME_AMBIGUOUS + 1);
 
@@ -68,7 +67,8 @@ Status CheckRunFolder(const std::string& folder) {
   const bool empty = fs::is_empty(folder, failure);
   if (failure) return Error{ErrorCode::kIo, folder + ": cannot be read: " + failure.message()};
   if (empty || fs::exists(JoinedPath(folder, "run.json"), failure)) return {};
-  return Error{ErrorCode::kIo, folder + ": holds files that are no run; name a new or empty folder"};
+  return Error{ErrorCode::kIo,
+               folder + ": holds files that are no run; name a new or empty folder"};
 }
 
 Status RunWriter::Open(const std::string& folder) {
@@ -117,8 +117,8 @@ void RunWriter::WriteTrajectory(const lodemark_estimate& from) {
   to.vertical_accuracy_m = known(kPosition, from.vertical_accuracy_m);
   to.speed_accuracy_mps = known(kVelocity, from.speed_accuracy_mps);
   to.protection_level_m = known(LODEMARK_ESTIMATE_HAS_PROTECTION_LEVEL, from.protection_level_m);
-  to.vertical_protection_level_m = known(LODEMARK_ESTIMATE_HAS_VERTICAL_PROTECTION_LEVEL,
-                                         from.vertical_protection_level_m);
+  to.vertical_protection_level_m =
+      known(LODEMARK_ESTIMATE_HAS_VERTICAL_PROTECTION_LEVEL, from.vertical_protection_level_m);
   constexpr std::size_t kElements[] = {0, 1, 4, 2, 5, 8};  // ee en nn eu nu uu
   for (std::size_t i = 0; i < 6; ++i) {
     to.covariance_enu_m2[i] = known(kPosition, from.covariance_enu_m2[kElements[i]]);
@@ -139,15 +139,15 @@ void RunWriter::WritePlace(const lodemark_estimate& from) {
     frame_.emplace(Geodetic{from.latitude_deg * kRadiansPerDegree,
                             from.longitude_deg * kRadiansPerDegree, from.height_m});
   }
-  const Eigen::Vector3d enu_m =
-      frame_->FromEcef({from.ecef_m[0], from.ecef_m[1], from.ecef_m[2]});
+  const Eigen::Vector3d enu_m = frame_->FromEcef({from.ecef_m[0], from.ecef_m[1], from.ecef_m[2]});
   // Nanoseconds since 1980 do not fit a double.
   char time_s[32];
   char* end = std::to_chars(time_s, time_s + sizeof time_s, from.time_gps_ns / kSecond_ns).ptr;
   const std::int64_t fraction_ns = from.time_gps_ns % kSecond_ns;
-  *end = '.';
-  std::to_chars(end + 1, time_s + sizeof time_s, kSecond_ns + fraction_ns);
-  *end = '.';  // in place of the leading 1 that kept the zeros
+  // Ten digits, of which the leading 1 keeps the zeros and gives way to the point.
+  char* const point = end;
+  end = std::to_chars(point, time_s + sizeof time_s, kSecond_ns + fraction_ns).ptr;
+  *point = '.';
   places_.Field(std::string_view(time_s, static_cast<std::size_t>(end - time_s)));
   for (int i = 0; i < 3; ++i) places_.Field(enu_m[i], 4);
   places_.Raw(" 0 0 0 1");
@@ -191,9 +191,8 @@ void RunWriter::WriteEpoch(const lodemark_estimate& estimate,
 
 void RunWriter::WriteEvents(std::span<const lodemark_event> events) {
   for (const lodemark_event& event : events) {
-    nlohmann::ordered_json json = {{"time_gps_ns", event.time_gps_ns},
-                                   {"event", EventWord(event.kind)},
-                                   {"text", event.text}};
+    nlohmann::ordered_json json = {
+        {"time_gps_ns", event.time_gps_ns}, {"event", EventWord(event.kind)}, {"text", event.text}};
     if (event.value != 0.0) json[ValueName(event.kind)] = event.value;
     events_.Raw(json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     events_.EndRow();

@@ -1,0 +1,286 @@
+// lodemark replay: a recording through the C interface, epoch by epoch, into a run folder.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "tools/lodemark/command.h"
+#include "tools/lodemark/progress_bar.h"
+#include "tools/lodemark/replay_diagnosis.h"
+#include "tools/lodemark/replay_inputs.h"
+#include "tools/lodemark/replay_measurements.h"
+#include "tools/lodemark/replay_options.h"
+#include "tools/lodemark/replay_session.h"
+#include "tools/lodemark/replay_summary.h"
+#include "tools/lodemark/run_writer.h"
+#include "tools/lodemark/sha256.h"
+#include "tools/lodemark/subcommands.h"
+
+namespace lodemark {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kLargestOrbitFile_bytes = 512u * 1024 * 1024;
+
+// What is left to say at the end, on stderr.
+struct Remarks {
+  std::vector<std::string> sentences;
+  void Add(std::string sentence) { sentences.push_back(std::move(sentence)); }
+};
+
+std::string JsonText(const ordered_json& json) {
+  // Bytes of a path that are not UTF-8 are replaced rather than fatal.
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+Status PushOrbits(const ReplayInputs& inputs, ReplaySession* session, Remarks* remarks) {
+  const auto push = [&](const std::string& path, auto method) -> Status {
+    const Result<std::string> content = ReadFileWhole(path, kLargestOrbitFile_bytes);
+    if (!content) return content.error();
+    lodemark_read_report report;
+    const Status pushed = (session->*method)(path, *content, &report);
+    if (!pushed.ok()) {
+      Error error = pushed.error();
+      if (error.code == ErrorCode::kUnsupported) error.code = ErrorCode::kBadData;
+      return error;
+    }
+    if (report.rows_skipped > 0) {
+      remarks->Add(path + ": " + GroupDigits(report.rows_skipped) +
+                   " malformed records skipped, the first: " + report.first_problem);
+    }
+    return {};
+  };
+  for (const std::string& path : inputs.navigation) {
+    const Status pushed = push(path, &ReplaySession::PushNavigation);
+    if (!pushed.ok()) return pushed;
+  }
+  for (const std::string& path : inputs.precise_orbits) {
+    const Status pushed = push(path, &ReplaySession::PushPreciseOrbits);
+    if (!pushed.ok()) return pushed;
+  }
+  return {};
+}
+
+ordered_json RunJson(const ReplayOptions& options, const ReplayInputs& inputs) {
+  ordered_json files = ordered_json::array();
+  const auto add = [&files](const char* role, const std::string& path) {
+    ordered_json file = {{"role", role}, {"file", path}};
+    // A pipe cannot be read twice.
+    if (const Result<FileFingerprint> fingerprint = FingerprintOf(path)) {
+      file["bytes"] = fingerprint->bytes;
+      file["sha256"] = fingerprint->sha256;
+    }
+    files.push_back(std::move(file));
+  };
+  switch (inputs.kind) {
+    case ReplayInputs::Measurements::kGnssLog:
+      add("gnss_log", inputs.measurements);
+      break;
+    case ReplayInputs::Measurements::kObservation:
+      add("observation", inputs.measurements);
+      break;
+    case ReplayInputs::Measurements::kKaggle:
+      add("device_gnss", inputs.measurements);
+      break;
+  }
+  for (const std::string& path : inputs.navigation) add("navigation", path);
+  for (const std::string& path : inputs.precise_orbits) add("precise_orbits", path);
+  return {{"program", "lodemark"},
+          {"version", VersionText()},
+          {"library", lodemark_version()},
+          {"recording", inputs.name},
+          {"command", CommandLineOf(options)},
+          {"scheme", options.scheme},
+          {"seed", options.seed},
+          {"inputs", files}};
+}
+
+ordered_json SummaryJson(const ReplayInputs& inputs, const MeasurementSource& source,
+                         const ReplaySummary& summary, double elapsed_s) {
+  const auto accuracy = [](const std::optional<double>& median, const std::optional<double>& p95) {
+    return median ? ordered_json{{"median", *median}, {"p95", *p95}} : ordered_json();
+  };
+  const MeasurementCounts& counts = source.counts();
+  const ReadReport& report = source.report();
+  ordered_json json = {
+      {"recording", inputs.name},       {"epochs", summary.epochs()},
+      {"answered", summary.answered()}, {"coverage", summary.coverage()},
+      {"status", summary.Outcomes()},   {"sources", {{"gnss", summary.answered()}}}};
+  if (summary.first_gps_ns()) {
+    json["first_time_gps_ns"] = *summary.first_gps_ns();
+    json["last_time_gps_ns"] = summary.last_gps_ns();
+  }
+  json["mean_satellites_used"] = summary.mean_satellites_used();
+  json["mean_satellites_seen"] = summary.mean_satellites_seen();
+  json["accuracy_m"] = accuracy(summary.Accuracy_m(0.5), summary.Accuracy_m(0.95));
+  json["vertical_accuracy_m"] =
+      accuracy(summary.VerticalAccuracy_m(0.5), summary.VerticalAccuracy_m(0.95));
+  json["signals"] = summary.signals();
+  json["signals_used"] = summary.signals_used();
+  json["verdicts"] = summary.Verdicts();
+  json["events"] = summary.Events();
+  json["measurements"] = {{"rows_read", report.rows_read},
+                          {"rows_skipped", report.rows_skipped},
+                          {"rows_unknown", report.rows_unknown},
+                          {"values_dropped", report.values_dropped},
+                          {"epochs_without_time_or_dropped", summary.dropped()},
+                          {"epochs_refused", counts.epochs_refused},
+                          {"unknown_constellation", counts.unknown_constellation},
+                          {"broadcast_messages_taken", counts.broadcast_taken},
+                          {"broadcast_messages_refused", counts.broadcast_refused}};
+  json["timing"] = {
+      {"elapsed_s", elapsed_s},
+      {"ms_per_epoch",
+       summary.epochs() > 0 ? 1e3 * elapsed_s / static_cast<double>(summary.epochs()) : 0.0}};
+  return json;
+}
+
+// The session's word that the epoch it just took was not used at all.
+bool WasDropped(std::span<const lodemark_event> events) {
+  for (const lodemark_event& event : events) {
+    if (event.kind == LODEMARK_EVENT_TIME_BACKWARDS ||
+        event.kind == LODEMARK_EVENT_DUPLICATE_EPOCH) {
+      return true;
+    }
+  }
+  return false;
+}
+
+Status ReplayAll(MeasurementSource* source, ReplaySession* session, RunWriter* writer,
+                 ReplaySummary* summary) {
+  ProgressBar progress("Replaying", StderrIsTerminal());
+  while (source->PushNext(session)) {
+    for (;;) {
+      const Result<bool> processed = session->Process();
+      if (!processed) return processed.error();
+      if (!*processed) break;
+      writer->WriteEvents(session->events());
+      summary->AddEvents(session->events());
+      const lodemark_estimate& estimate = session->estimate();
+      if (WasDropped(session->events()) ||
+          (estimate.present & LODEMARK_ESTIMATE_HAS_GPS_TIME) == 0) {
+        summary->AddDroppedEpoch();
+        continue;
+      }
+      writer->WriteEpoch(estimate, session->satellites());
+      summary->AddEpoch(estimate, session->satellites());
+    }
+    if (!writer->ok()) break;
+    progress.Update(source->progress());
+  }
+  return writer->Finish();
+}
+
+void AddRemarks(const ReplayInputs& inputs, const MeasurementSource& source,
+                const ReplaySummary& summary, Remarks* remarks) {
+  const std::string& file = inputs.measurements;
+  const ReadReport& report = source.report();
+  const MeasurementCounts& counts = source.counts();
+  if (report.rows_skipped > 0) {
+    remarks->Add(file + ": " + GroupDigits(report.rows_skipped) +
+                 " malformed rows skipped; see 'lodemark log check'");
+  }
+  if (counts.unknown_constellation > 0) {
+    remarks->Add(file + ": " + GroupDigits(counts.unknown_constellation) +
+                 " measurements of a constellation that this version does not know left out");
+  }
+  if (counts.epochs_refused > 0 && counts.epochs > 0) {
+    remarks->Add(file + ": " + GroupDigits(counts.epochs_refused) +
+                 " epochs left out, the first because " + counts.first_refusal);
+  }
+  const std::map<std::string, std::int64_t> events = summary.Events();
+  const auto count_of = [&events](const char* word) {
+    const auto found = events.find(word);
+    return found != events.end() ? found->second : 0;
+  };
+  if (const std::int64_t count = count_of("time_backwards"); count > 0) {
+    remarks->Add(file + ": time runs backwards; " + GroupDigits(count) +
+                 " epochs older than the one before left out");
+  }
+  if (const std::int64_t count = count_of("duplicate_epoch"); count > 0) {
+    remarks->Add(file + ": " + GroupDigits(count) +
+                 " epochs with the time of the one before left out");
+  }
+  const std::string bare = summary.SystemsWithoutEphemeris();
+  if (!bare.empty() && summary.answered() > 0) {
+    remarks->Add(file + ": no ephemeris for any satellite of " + bare +
+                 "; a navigation file that has them would help");
+  }
+}
+
+int RunReplay(const ReplayOptions& options) {
+  const Clock::time_point start = Clock::now();
+  const Result<lodemark_session_options> session_options = SessionOptionsOf(options);
+  if (!session_options) return ReportError(session_options.error());
+  const Result<ReplayInputs> inputs = FindReplayInputs(options.request);
+  if (!inputs) return ReportError(inputs.error());
+  Result<std::unique_ptr<MeasurementSource>> source = OpenMeasurements(*inputs);
+  if (!source) return ReportError(source.error());
+  Result<ReplaySession> session = ReplaySession::Open(*session_options);
+  if (!session) return ReportError(session.error());
+  Remarks remarks{inputs->remarks};
+  const Status orbits = PushOrbits(*inputs, &*session, &remarks);
+  if (!orbits.ok()) return ReportError(orbits.error());
+
+  RunWriter writer;
+  const Status opened = writer.Open(options.out);
+  if (!opened.ok()) return ReportError(opened.error());
+  const auto write = [&](const char* name, const ordered_json& json) {
+    return WriteFileWhole((fs::path(options.out) / name).string(), JsonText(json));
+  };
+  const Status begun = write("run.json", RunJson(options, *inputs));
+  if (!begun.ok()) return ReportError(begun.error());
+
+  ReplaySummary summary;
+  const Status replayed = ReplayAll(source->get(), &*session, &writer, &summary);
+  if (!replayed.ok()) return ReportError(replayed.error());
+
+  const double elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
+  const ordered_json summary_json = SummaryJson(*inputs, **source, summary, elapsed_s);
+  const Status written = write("summary.json", summary_json);
+  if (!written.ok()) return ReportError(written.error());
+  if (options.json) {
+    PrintResult(JsonText(summary_json));
+  } else if (summary.epochs() > 0) {
+    PrintResult(inputs->name + "\n" + SummaryText(summary, elapsed_s, StdoutIsTerminal()) +
+                "  written to " + options.out +
+                ": trajectory.csv, trajectory.tum, satellites.csv, events.jsonl, summary.json, "
+                "run.json\n");
+  }
+  FlushResults();
+
+  // A file that ended early, or gave nothing at all, matters more than what came of it.
+  const Status verdict = (*source)->Verdict();
+  AddRemarks(*inputs, **source, summary, &remarks);
+  if (verdict.ok() || summary.epochs() > 0) {
+    for (const std::string& sentence : remarks.sentences) PrintMessage(sentence);
+  }
+  if (!verdict.ok()) {
+    Error error = verdict.error();
+    if (summary.epochs() > 0) {
+      error.message +=
+          "; the " + GroupDigits(summary.epochs()) + " epochs before are in " + options.out;
+    }
+    return ReportError(error);
+  }
+  if (summary.answered() == 0) {
+    PrintMessage(WhyNoEstimate(*inputs, (*source)->counts(), summary));
+    return kExitMissed;
+  }
+  return kExitGood;
+}
+
+}  // namespace
+
+void AddReplayCommand(CLI::App& app, int* exit_code) {
+  const auto options = std::make_shared<ReplayOptions>();
+  CLI::App* command = app.add_subcommand("replay", "Positions from a recording, into a run folder");
+  DeclareReplayOptions(*command, options.get());
+  command->callback([options, exit_code] { *exit_code = RunReplay(*options); });
+}
+
+}  // namespace lodemark
