@@ -10,7 +10,7 @@
 #include "tools/lodemark/run_errors.h"
 #include "tools/lodemark/run_folder.h"
 #include "tools/lodemark/subcommands.h"
-#include "tools/lodemark/truth_track.h"
+#include "tools/lodemark/truth.h"
 
 namespace lodemark {
 namespace {
@@ -67,8 +67,7 @@ std::string JsonText(const std::vector<ComparedRun>& runs, const CompareOptions&
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-Result<std::vector<ComparedRun>> CompareAll(const CompareOptions& options,
-                                            const TruthTrack& truth) {
+Result<std::vector<ComparedRun>> CompareAll(const CompareOptions& options, const Truth& truth) {
   const std::vector<std::string> names = RunNames(options.runs);
   std::vector<ComparedRun> compared;
   for (std::size_t i = 0; i < options.runs.size(); ++i) {
@@ -83,11 +82,11 @@ Result<std::vector<ComparedRun>> CompareAll(const CompareOptions& options,
   return compared;
 }
 
-void PrintRemarks(const std::vector<ComparedRun>& runs, const TruthTrack& truth) {
-  if (truth.report().rows_skipped > 0) {
+void PrintRemarks(const std::vector<ComparedRun>& runs, const Truth& truth) {
+  if (truth.report.rows_skipped > 0) {
     PrintMessage(Format("%lld malformed rows skipped, the first is ",
-                        static_cast<long long>(truth.report().rows_skipped)) +
-                 FormatProblem(truth.file(), truth.report().problems.front()));
+                        static_cast<long long>(truth.report.rows_skipped)) +
+                 FormatProblem(truth.file, truth.report.problems.front()));
   }
   for (const ComparedRun& run : runs) {
     if (run.rows_skipped > 0) {
@@ -102,7 +101,7 @@ void PrintRemarks(const std::vector<ComparedRun>& runs, const TruthTrack& truth)
 }
 
 int RunCompare(const CompareOptions& options) {
-  const Result<TruthTrack> truth = TruthTrack::Read(options.truth);
+  const Result<Truth> truth = ReadTruth(options.truth);
   if (!truth) return ReportError(truth.error());
   const Result<std::vector<ComparedRun>> runs = CompareAll(options, *truth);
   if (!runs) return ReportError(runs.error());

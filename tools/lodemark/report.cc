@@ -7,7 +7,7 @@
 #include "tools/lodemark/progress_bar.h"
 #include "tools/lodemark/report_content.h"
 #include "tools/lodemark/subcommands.h"
-#include "tools/lodemark/truth_track.h"
+#include "tools/lodemark/truth.h"
 
 namespace lodemark {
 namespace {
@@ -19,9 +19,9 @@ struct ReportOptions {
 };
 
 int RunReport(const ReportOptions& options) {
-  std::optional<TruthTrack> truth;
+  std::optional<Truth> truth;
   if (!options.truth.empty()) {
-    Result<TruthTrack> read = TruthTrack::Read(options.truth);
+    Result<Truth> read = ReadTruth(options.truth);
     if (!read) return ReportError(read.error());
     truth = std::move(read).value();
   }

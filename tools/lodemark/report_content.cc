@@ -46,18 +46,18 @@ std::optional<ReportEllipse> EllipseOf(const std::array<double, 3>& covariance_m
 
 // Where the page's local frame lies: the static truth, or the median estimate of the first run.
 std::optional<Geodetic> OriginOf(const std::vector<RunFolder>& runs,
-                                 const std::optional<TruthTrack>& truth) {
-  if (truth && truth->is_static()) {
-    const TruthPoint& point = truth->points().front();
-    return PlaceOf(point.latitude_deg, point.longitude_deg, point.height_m.value_or(0.0));
+                                 const std::optional<Truth>& truth) {
+  if (truth && truth->track.is_static()) {
+    const TrajectoryPoint& point = truth->track.points().front();
+    return PlaceOf(*point.latitude_deg, *point.longitude_deg, point.height_m.value_or(0.0));
   }
   for (const RunFolder& run : runs) {
     std::vector<double> latitudes, longitudes, heights;
-    for (const RunEpoch& epoch : run.epochs) {
-      if (!epoch.answered) continue;
-      latitudes.push_back(epoch.latitude_deg);
-      longitudes.push_back(epoch.longitude_deg);
-      heights.push_back(epoch.height_m);
+    for (const TrajectoryPoint& epoch : run.epochs) {
+      if (!epoch.has_position()) continue;
+      latitudes.push_back(*epoch.latitude_deg);
+      longitudes.push_back(*epoch.longitude_deg);
+      heights.push_back(epoch.height_m.value_or(0.0));
     }
     if (latitudes.empty()) continue;
     const auto median = [](std::vector<double>& values) {
@@ -70,23 +70,27 @@ std::optional<Geodetic> OriginOf(const std::vector<RunFolder>& runs,
   return std::nullopt;
 }
 
-ReportEpoch DrawnEpoch(const RunEpoch& epoch, const EpochError* error, const EnuFrame& frame,
+ReportEpoch DrawnEpoch(const TrajectoryPoint& epoch, const EpochError* error, const EnuFrame& frame,
                        std::int64_t start_ns) {
   ReportEpoch drawn;
   drawn.time_s = SecondsSince(start_ns, epoch.time_gps_ns);
   drawn.status = epoch.status;
   drawn.satellites_used = epoch.satellites_used;
-  drawn.answered = epoch.answered;
-  if (!epoch.answered) return drawn;
+  drawn.answered = epoch.has_position();
+  if (!epoch.has_position()) return drawn;
+  const double height_m = epoch.height_m.value_or(frame.origin().height_m);
   const Eigen::Vector3d enu = frame.FromEcef(
-      EcefFromGeodetic(PlaceOf(epoch.latitude_deg, epoch.longitude_deg, epoch.height_m)));
+      EcefFromGeodetic(PlaceOf(*epoch.latitude_deg, *epoch.longitude_deg, height_m)));
   drawn.east_m = enu.x();
   drawn.north_m = enu.y();
   // The local frame's plane leaves the ellipsoid; heights do not.
-  drawn.up_m = epoch.height_m - frame.origin().height_m;
+  drawn.up_m = height_m - frame.origin().height_m;
   drawn.accuracy_m = epoch.accuracy_m;
   drawn.vertical_accuracy_m = epoch.vertical_accuracy_m;
-  if (epoch.horizontal_covariance_m2) drawn.ellipse = EllipseOf(*epoch.horizontal_covariance_m2);
+  const auto& covariance = epoch.covariance_enu_m2;
+  if (covariance[0] && covariance[1] && covariance[2]) {
+    drawn.ellipse = EllipseOf({*covariance[0], *covariance[1], *covariance[2]});
+  }
   if (error != nullptr) {
     drawn.error_m = std::array{error->east_m, error->north_m};
     drawn.up_error_m = error->up_m;
@@ -102,17 +106,17 @@ std::vector<ReportEpoch> DrawnEpochs(const RunFolder& run, const std::optional<R
   std::size_t next_error = 0;  // errors come in the order of the answered epochs
   for (std::size_t first = 0; first < run.epochs.size(); first += stride) {
     const std::size_t end = std::min(run.epochs.size(), first + stride);
-    const RunEpoch* chosen = &run.epochs[first];
+    const TrajectoryPoint* chosen = &run.epochs[first];
     const EpochError* chosen_error = nullptr;
     for (std::size_t i = first; i < end; ++i) {
-      const RunEpoch& epoch = run.epochs[i];
+      const TrajectoryPoint& epoch = run.epochs[i];
       const EpochError* error = nullptr;
-      if (epoch.answered && errors && next_error < errors->errors.size() &&
+      if (epoch.has_position() && errors && next_error < errors->errors.size() &&
           errors->errors[next_error].time_gps_ns == epoch.time_gps_ns) {
         error = &errors->errors[next_error++];
       }
       const bool better =
-          (epoch.answered && !chosen->answered) ||
+          (epoch.has_position() && !chosen->has_position()) ||
           (error != nullptr &&
            (chosen_error == nullptr || error->horizontal_m() > chosen_error->horizontal_m()));
       if (i == first || better) {
@@ -125,17 +129,18 @@ std::vector<ReportEpoch> DrawnEpochs(const RunFolder& run, const std::optional<R
   return drawn;
 }
 
-std::vector<ReportTruthPoint> DrawnTruth(const TruthTrack& truth, const EnuFrame& frame,
+std::vector<ReportTruthPoint> DrawnTruth(const Truth& truth, const EnuFrame& frame,
                                          std::int64_t start_ns, std::int64_t end_ns) {
   std::vector<ReportTruthPoint> drawn;
-  const auto& points = truth.points();
+  const auto& points = truth.track.points();
   const std::size_t stride = (points.size() + kDrawnTruth - 1) / kDrawnTruth;
   for (std::size_t i = 0; i < points.size(); i += stride) {
-    const TruthPoint& point = points[i];
-    if (!truth.is_static() && (point.time_gps_ns < start_ns || point.time_gps_ns > end_ns))
+    const TrajectoryPoint& point = points[i];
+    if (!point.has_position()) continue;
+    if (!truth.track.is_static() && (point.time_gps_ns < start_ns || point.time_gps_ns > end_ns))
       continue;
     const Eigen::Vector3d enu =
-        frame.FromEcef(EcefFromGeodetic(PlaceOf(point.latitude_deg, point.longitude_deg,
+        frame.FromEcef(EcefFromGeodetic(PlaceOf(*point.latitude_deg, *point.longitude_deg,
                                                 point.height_m.value_or(frame.origin().height_m))));
     drawn.push_back({SecondsSince(start_ns, point.time_gps_ns), enu.x(), enu.y()});
   }
@@ -199,8 +204,8 @@ TextTable UncheckedTable(const std::vector<RunFolder>& runs,
   for (const RunFolder& run : runs) {
     std::vector<double> stated_m;
     std::int64_t count = 0;
-    for (const RunEpoch& epoch : run.epochs) {
-      if (!epoch.answered) continue;
+    for (const TrajectoryPoint& epoch : run.epochs) {
+      if (!epoch.has_position()) continue;
       ++count;
       if (epoch.accuracy_m) stated_m.push_back(*epoch.accuracy_m);
     }
@@ -249,7 +254,7 @@ void AddFigures(const std::vector<ComparedRun>& compared, Report* report) {
 }  // namespace
 
 Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
-                                   const std::optional<TruthTrack>& truth, ProgressBar* progress) {
+                                   const std::optional<Truth>& truth, ProgressBar* progress) {
   std::vector<RunFolder> runs;
   for (const std::string& path : run_paths) {
     Result<RunFolder> run = ReadRunFolder(path);
@@ -260,7 +265,7 @@ Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
   std::int64_t start_ns = runs.front().epochs.front().time_gps_ns;
   std::int64_t end_ns = start_ns;
   for (const RunFolder& run : runs) {
-    for (const RunEpoch& epoch : run.epochs) {
+    for (const TrajectoryPoint& epoch : run.epochs) {
       start_ns = std::min(start_ns, epoch.time_gps_ns);
       end_ns = std::max(end_ns, epoch.time_gps_ns);
     }
@@ -296,7 +301,7 @@ Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
       content.remarks.push_back(run.path + ": " + GroupDigits(run.trajectory_report.rows_skipped) +
                                 " malformed rows of trajectory.csv skipped");
     }
-    for (const RunEpoch& epoch : run.epochs) content.any_estimate |= epoch.answered;
+    for (const TrajectoryPoint& epoch : run.epochs) content.any_estimate |= epoch.has_position();
     report.runs.push_back(std::move(drawn));
     progress->Update(static_cast<double>(i + 1) / static_cast<double>(runs.size()));
   }
@@ -325,7 +330,7 @@ Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
     report.subtitle += Format(", near %.5f° %.5f°", origin->latitude_rad * kDegreesPerRadian,
                               origin->longitude_rad * kDegreesPerRadian);
   }
-  if (truth) report.subtitle += ", truth from " + truth->file();
+  if (truth) report.subtitle += ", truth from " + truth->file;
   report.generator = "Made by lodemark " + VersionText() + ". This file needs no network.";
   return content;
 }

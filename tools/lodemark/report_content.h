@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "tools/lodemark/truth_track.h"
+#include "tools/lodemark/truth.h"
 #include "tools/report/report.h"
 
 namespace lodemark {
@@ -20,6 +20,6 @@ struct ReportContent {
 };
 
 Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
-                                   const std::optional<TruthTrack>& truth, ProgressBar* progress);
+                                   const std::optional<Truth>& truth, ProgressBar* progress);
 
 }  // namespace lodemark

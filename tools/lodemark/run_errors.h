@@ -7,7 +7,7 @@
 #include "core/base/result.h"
 #include "tools/lodemark/compare_statistics.h"
 #include "tools/lodemark/run_folder.h"
-#include "tools/lodemark/truth_track.h"
+#include "tools/lodemark/truth.h"
 
 namespace lodemark {
 
@@ -19,6 +19,6 @@ struct RunErrors {
 
 // Fails with one sentence if the truth cannot be this run's: no common time, or every estimate
 // more than 50 km away from it.
-Result<RunErrors> ErrorsAgainst(const RunFolder& run, const TruthTrack& truth);
+Result<RunErrors> ErrorsAgainst(const RunFolder& run, const Truth& truth);
 
 }  // namespace lodemark

@@ -1,37 +1,18 @@
 // What `lodemark replay` left in a run folder (docs/formats.md), read back.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/result.h"
 #include "core/logs/read_report.h"
+#include "core/logs/trajectory.h"
 
 namespace lodemark {
-
-// One row of trajectory.csv.
-struct RunEpoch {
-  std::int64_t time_gps_ns = 0;
-  bool answered = false;  // there is a position
-  double latitude_deg = 0.0;
-  double longitude_deg = 0.0;
-  double height_m = 0.0;
-  std::optional<std::array<double, 3>> velocity_enu_mps;
-  std::optional<double> accuracy_m;
-  std::optional<double> vertical_accuracy_m;
-  std::optional<double> speed_accuracy_mps;
-  std::optional<double> protection_level_m;
-  std::optional<double> vertical_protection_level_m;
-  // East-east, east-north, north-north.
-  std::optional<std::array<double, 3>> horizontal_covariance_m2;
-  std::optional<double> up_variance_m2;
-  std::optional<int> satellites_used;
-  std::string status;
-};
 
 // One line of events.jsonl.
 struct RunEvent {
@@ -55,8 +36,8 @@ struct RunSignal {
 
 struct RunFolder {
   std::string path;
-  std::string name;              // the folder's own name
-  std::vector<RunEpoch> epochs;  // in file order
+  std::string name;                     // the folder's own
+  std::vector<TrajectoryPoint> epochs;  // in order of time, with and without an estimate
   ReadReport trajectory_report;
 };
 
