@@ -1,45 +1,35 @@
 // The density of a range error model, tabulated for evaluation by the thousand.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "core/fusion/observation.h"
 
 namespace lodemark {
 
-// Linear interpolation between nodes: a quarter sigma apart in the core of +-6 sigma, a quarter of
-// the late scale apart in the late tail behind it, constant beyond.
+// Equidistant nodes from 6 sigma before zero to 6 sigma and 6 late scales behind it, linear
+// between, constant beyond. Single precision: densities enter as factors of a weight.
 class DensityTable {
  public:
   void Fill(const RangeErrorModel& model);
 
-  double operator()(double error_m) const {
-    const double core = (error_m - core_begin_m_) * core_nodes_per_m_;
-    if (core < 0.0) return floor_pm_;
-    if (core < kCoreSteps) return Between(core_, core);
-    const double tail = (error_m - tail_begin_m_) * tail_nodes_per_m_;
-    return tail < kTailSteps ? Between(tail_, tail) : floor_pm_;
+  float operator()(float error_m) const {
+    const float place = std::clamp((error_m - begin_m_) * nodes_per_m_, 0.0f, last_place_);
+    const int node = static_cast<int>(place);
+    const float before = nodes_[static_cast<std::size_t>(node)];
+    const float after = nodes_[static_cast<std::size_t>(node) + 1];
+    return before + (place - static_cast<float>(node)) * (after - before);
   }
 
  private:
-  static constexpr int kCoreSteps = 48;
-  static constexpr int kTailSteps = 32;
+  static constexpr int kFewestNodes = 48;
+  static constexpr int kMostNodes = 512;
 
-  template <std::size_t kSize>
-  static double Between(const std::array<float, kSize>& nodes, double place) {
-    const auto node = static_cast<std::size_t>(place);
-    const double share = place - static_cast<double>(node);
-    const double before = static_cast<double>(nodes[node]);
-    return before + share * (static_cast<double>(nodes[node + 1]) - before);
-  }
-
-  double core_begin_m_ = 0.0;
-  double core_nodes_per_m_ = 1.0;
-  double tail_begin_m_ = 0.0;
-  double tail_nodes_per_m_ = 1.0;
-  double floor_pm_ = 0.0;
-  std::array<float, kCoreSteps + 1> core_ = {};
-  std::array<float, kTailSteps + 1> tail_ = {};
+  float begin_m_ = 0.0f;
+  float nodes_per_m_ = 1.0f;
+  float last_place_ = 0.0f;
+  std::array<float, kMostNodes + 2> nodes_ = {};
 };
 
 }  // namespace lodemark

@@ -11,7 +11,7 @@ namespace lodemark {
 namespace {
 
 // Ranges in doubt, in sum of probabilities, below which mode and mean are one.
-constexpr double kDoubtful = 0.1;
+constexpr double kDoubtful = 0.5;
 
 // Reflections last and come in families, so an epoch with many tells less than independent errors
 // would: the covariance grows by this much times their share.

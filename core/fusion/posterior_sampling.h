@@ -26,21 +26,24 @@ class PosteriorSampling {
   PosteriorMoments Run(const PointProblem& problem, const Eigen::Matrix4d& proposal);
 
  private:
-  // What a sample needs of a row.
+  // What the samples need of a row.
   struct Line {
-    Eigen::Vector3d direction;
-    double residual_m = 0.0;  // at the present state
-    double clock = 0.0;       // 1 if the pivot clock is in it
+    Eigen::Vector4d slope = Eigen::Vector4d::Zero();  // of the residual by mean's unknowns
+    double residual_m = 0.0;                          // at the present state
   };
 
   PosteriorMoments Round(const PointProblem& problem, const Eigen::Vector4d& mean,
                          const Eigen::Matrix4d& covariance);
 
-  std::vector<Eigen::Vector4d> normal_points_;
+  int samples_;
+  // Standard normal points, one array per dimension.
+  std::vector<float> normal_[4];
+  std::vector<double> log_of_proposal_;  // half their squared length
   std::vector<DensityTable> tables_;
   std::vector<Line> lines_;
+  std::vector<float> residuals_m_;
+  std::vector<double> products_;
   std::vector<double> log_weights_;
-  std::vector<Eigen::Vector4d> points_;
 };
 
 }  // namespace lodemark
