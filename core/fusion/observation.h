@@ -22,6 +22,8 @@ struct RangeObservation {
   double range_m = 0.0;  // corrected for all but the clock of its group
   RangeErrorModel error;
   std::int32_t clock_group = kNoClock;  // which receiver clock it contains
+  // How many times an unmodelled zenith delay of the troposphere it contains; 0: none.
+  double zenith_delay_factor = 0.0;
 };
 
 // A rate of change of a distance: Doppler.

@@ -28,6 +28,7 @@ constexpr double kAgreeingBeyondNeeded = 1.0;
 // has hardly a lock, the error model can explain everything as late and still be tens of
 // kilometres off; then none of its ranges looks like ordinary noise.
 constexpr double kFewestOrdinary = 2.0;
+constexpr double kOrdinaryWithoutCheck = 0.9;
 
 // Cauchy weights whose width shrinks step by step (graduated non-convexity), late errors held
 // more suspect than early ones.
@@ -116,11 +117,13 @@ int Descend(PointProblem* problem, int largest_iterations) {
     if (!normals.Solve(&step)) return -1;
     const Eigen::Vector3d point = problem->point_in_ecef();
     const PointVector clocks = problem->clock_state();
+    const double zenith_delay_m = problem->zenith_delay_m();
     double scale = 1.0;
     double new_cost = cost;
     bool better = false;
     for (int halving = 0; halving < 6; ++halving, scale *= 0.4) {
       problem->clock_state() = clocks;
+      problem->zenith_delay_m() = zenith_delay_m;
       problem->MoveTo(point);
       problem->Step(scale * step);
       new_cost = Cost(*problem);
@@ -131,6 +134,7 @@ int Descend(PointProblem* problem, int largest_iterations) {
     }
     if (!better) {
       problem->clock_state() = clocks;
+      problem->zenith_delay_m() = zenith_delay_m;
       problem->MoveTo(point);
       return i;
     }
@@ -150,6 +154,9 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
   *estimate = PointEstimate();
   verdicts->assign(observations.size(), ObservationVerdict());
   PointProblem problem(observations, biases, options.height, &rows_);
+  if (options.zenith_delay_sigma_m > 0.0) {
+    problem.EstimateZenithDelay(options.zenith_delay_sigma_m);
+  }
   problem.MoveTo(start_in_ecef);
   problem.GuessClocks();
 
@@ -194,6 +201,7 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
   }
 
   estimate->position_in_ecef = problem.point_in_ecef();
+  estimate->zenith_delay_m = problem.zenith_delay_m();
   const double pivot_bias_m = problem.clocks() > 0 ? biases[problem.group(0)].mean_m : 0.0;
   estimate->clock_m = problem.clocks() > 0 ? problem.clock_state()[0] - pivot_bias_m : 0.0;
   for (int clock = 0; clock < problem.clocks(); ++clock) {
@@ -231,8 +239,10 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
     weights_[i] = terms.core_share / (row.error.sigma_m * row.error.sigma_m);
   }
   const double needed = static_cast<double>(observations.size()) - redundancy;
-  if (explained < needed + (redundancy > 0 ? kAgreeingBeyondNeeded : 0.0) ||
-      ordinary < kFewestOrdinary) {
+  // Where nothing is left to agree, all ranges must look like ordinary noise.
+  const bool agree = redundancy > 0 ? explained >= needed + kAgreeingBeyondNeeded
+                                    : ordinary >= kOrdinaryWithoutCheck * needed;
+  if (!agree || ordinary < kFewestOrdinary) {
     return estimate->status = PointStatus::kInconsistent;
   }
 

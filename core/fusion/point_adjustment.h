@@ -28,6 +28,8 @@ struct PointOptions {
   bool posterior_mean = true;
   int posterior_samples = 256;  // a round
   std::optional<HeightPrior> height;
+  // Estimates the zenith delay that no model took out, zero within this sigma; 0: does not.
+  double zenith_delay_sigma_m = 0.0;
   // Probability of the risk that the protection levels leave.
   double integrity_risk = 1e-5;
 };
@@ -46,6 +48,7 @@ struct PointEstimate {
   Eigen::Matrix3d covariance_enu_m2 = Eigen::Matrix3d::Zero();
   double clock_m = 0.0;  // of group 0
   double clock_variance_m2 = 0.0;
+  double zenith_delay_m = 0.0;
   // Of the groups seen, after the epoch.
   std::array<ClockBias, kMaxClockGroups> biases = {};
   std::uint32_t groups_seen = 0;  // bit per group

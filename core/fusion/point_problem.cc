@@ -46,6 +46,7 @@ PointProblem::PointProblem(std::span<const RangeObservation> observations,
     Row& row = (*rows_)[i];
     const int g = observations[i].clock_group;
     row.clock = g < 0 ? -1 : dense[static_cast<std::size_t>(g)];
+    row.zenith_delay_factor = observations[i].zenith_delay_factor;
     row.error = observations[i].error;
   }
 }
@@ -65,7 +66,8 @@ void PointProblem::MoveTo(const Eigen::Vector3d& point_in_ecef) {
 }
 
 void PointProblem::Step(const PointVector& step) {
-  clock_state_ += step.tail(clocks_);
+  clock_state_ += step.segment(3, clocks_);
+  if (unknowns() > 3 + clocks_) zenith_delay_m_ += step[3 + clocks_];
   MoveTo(point_in_ecef_ + enu_from_ecef_.transpose() * step.head<3>());
 }
 
@@ -99,6 +101,15 @@ void PointProblem::Accumulate(const Row& row, double weight, double weighted_res
   const Eigen::Vector3d slope = -row.direction;
   normal->topLeftCorner<3, 3>() += weight * slope * slope.transpose();
   right->head<3>() += weighted_residual * slope;
+  const int zenith = 3 + clocks_;
+  if (unknowns() > zenith && row.zenith_delay_factor != 0.0) {
+    const double factor = row.zenith_delay_factor;
+    normal->block<3, 1>(0, zenith) += weight * factor * slope;
+    (*normal)(zenith, zenith) += weight * factor * factor;
+    (*right)[zenith] += weighted_residual * factor;
+    if (row.clock >= 0) (*normal)(3, zenith) += weight * factor;
+    if (row.clock > 0) (*normal)(3 + row.clock, zenith) += weight * factor;
+  }
   if (row.clock < 0) return;
   normal->block<3, 1>(0, 3) += weight * slope;
   (*normal)(3, 3) += weight;
@@ -111,11 +122,25 @@ void PointProblem::Accumulate(const Row& row, double weight, double weighted_res
   (*right)[k] += weighted_residual;
 }
 
+PointVector PointProblem::Slope(const Row& row) const {
+  PointVector slope = PointVector::Zero(unknowns());
+  slope.head<3>() = -row.direction;
+  if (row.clock >= 0) slope[3] = 1.0;
+  if (row.clock > 0) slope[3 + row.clock] = 1.0;
+  if (unknowns() > 3 + clocks_) slope[3 + clocks_] = row.zenith_delay_factor;
+  return slope;
+}
+
 void PointProblem::AccumulatePriors(PointMatrix* normal, PointVector* right) const {
   for (int clock = 1; clock < clocks_; ++clock) {
     const double information = 1.0 / (prior_sigma_m(clock) * prior_sigma_m(clock));
     (*normal)(3 + clock, 3 + clock) += information;
     (*right)[3 + clock] += information * (prior_m(clock) - clock_state_[clock]);
+  }
+  if (unknowns() > 3 + clocks_) {
+    const double information = 1.0 / (zenith_delay_sigma_m_ * zenith_delay_sigma_m_);
+    (*normal)(3 + clocks_, 3 + clocks_) += information;
+    (*right)[3 + clocks_] -= information * zenith_delay_m_;
   }
   if (height_) {
     const double information = 1.0 / (height_->sigma_m * height_->sigma_m);
@@ -132,6 +157,10 @@ double PointProblem::PriorCost() const {
   double cost = 0.0;
   for (int clock = 1; clock < clocks_; ++clock) {
     const double u = (prior_m(clock) - clock_state_[clock]) / prior_sigma_m(clock);
+    cost += 0.5 * u * u;
+  }
+  if (unknowns() > 3 + clocks_) {
+    const double u = zenith_delay_m_ / zenith_delay_sigma_m_;
     cost += 0.5 * u * u;
   }
   if (height_) {

@@ -19,19 +19,21 @@ struct HeightPrior {
   double sigma_m = 0.0;
 };
 
-inline constexpr int kMaxPointUnknowns = 3 + kMaxClockGroups;
+inline constexpr int kMaxPointUnknowns = 3 + kMaxClockGroups + 1;
 using PointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxPointUnknowns, 1>;
 using PointMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxPointUnknowns, kMaxPointUnknowns>;
 
 // Unknowns: east, north, up in metres from the linearisation point, the clock of a pivot group,
-// and what the clock of each other group differs from the pivot's.
+// what the clock of each other group differs from the pivot's, and last, if asked for, the zenith
+// delay of the troposphere that no model took out.
 class PointProblem {
  public:
   struct Row {
     Eigen::Vector3d direction;  // east, north, up; unit, from receiver to point
     double misclosure_m = 0.0;  // observed minus computed at the linearisation point, clock in it
     int clock = -1;             // dense index of its group; 0 is the pivot; -1: no clock
+    double zenith_delay_factor = 0.0;
     RangeErrorModel error;
   };
 
@@ -44,7 +46,7 @@ class PointProblem {
   // Applies a step of the unknowns: moves the point and adds to the clocks.
   void Step(const PointVector& step);
 
-  int unknowns() const { return 3 + clocks_; }
+  int unknowns() const { return 3 + clocks_ + (zenith_delay_sigma_m_ > 0.0 ? 1 : 0); }
   int clocks() const { return clocks_; }
   int group(int clock) const { return group_of_[static_cast<std::size_t>(clock)]; }
   int members(int clock) const { return members_[static_cast<std::size_t>(clock)]; }
@@ -58,8 +60,17 @@ class PointProblem {
   double prior_m(int clock) const { return prior_m_[static_cast<std::size_t>(clock)]; }
   double prior_sigma_m(int clock) const { return prior_sigma_m_[static_cast<std::size_t>(clock)]; }
 
-  // Observed minus computed with the clocks as they are.
-  double Residual(const Row& row) const { return row.misclosure_m - ClockOf(row); }
+  // Makes the zenith delay an unknown, believed to be zero within sigma_m (> 0).
+  void EstimateZenithDelay(double sigma_m) { zenith_delay_sigma_m_ = sigma_m; }
+  double& zenith_delay_m() { return zenith_delay_m_; }
+  double zenith_delay_m() const { return zenith_delay_m_; }
+
+  // Observed minus computed with the clocks and the zenith delay as they are.
+  double Residual(const Row& row) const {
+    return row.misclosure_m - ClockOf(row) - row.zenith_delay_factor * zenith_delay_m_;
+  }
+  // How the range of a row changes with each unknown.
+  PointVector Slope(const Row& row) const;
 
   // Clocks by the median of each group's misclosures, priors heeded where a group is known.
   void GuessClocks();
@@ -87,6 +98,8 @@ class PointProblem {
   std::array<double, kMaxClockGroups> prior_m_ = {};
   std::array<double, kMaxClockGroups> prior_sigma_m_ = {};
   PointVector clock_state_;
+  double zenith_delay_sigma_m_ = 0.0;
+  double zenith_delay_m_ = 0.0;
 };
 
 }  // namespace lodemark

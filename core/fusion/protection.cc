@@ -17,15 +17,6 @@ double HorizontalSigma(const Eigen::Matrix3d& covariance_m2) {
   return std::sqrt(std::max(mean + std::hypot(half, covariance_m2(0, 1)), 0.0));
 }
 
-// How the range of a row changes with each unknown.
-PointVector Slope(const PointProblem& problem, const PointProblem::Row& row) {
-  PointVector slope = PointVector::Zero(problem.unknowns());
-  slope.head<3>() = -row.direction;
-  if (row.clock >= 0) slope[3] = 1.0;
-  if (row.clock > 0) slope[3 + row.clock] = 1.0;
-  return slope;
-}
-
 }  // namespace
 
 ProtectionLevels SeparationLevels(const PointProblem& problem, const PointMatrix& information,
@@ -45,7 +36,7 @@ ProtectionLevels SeparationLevels(const PointProblem& problem, const PointMatrix
   for (std::size_t i = 0; i < problem.rows().size(); ++i) {
     if (!(weights[i] > 0.0)) continue;
     const PointProblem::Row& row = problem.rows()[i];
-    const PointVector slope = Slope(problem, row);
+    const PointVector slope = problem.Slope(row);
     const PointVector gain = factor.solve(slope);
     // What stays of the row's own information when the others are told without it.
     const double left = 1.0 - weights[i] * slope.dot(gain);

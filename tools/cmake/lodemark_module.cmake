@@ -14,7 +14,9 @@ target_compile_options(
             $<$<COMPILE_LANGUAGE:CXX>:-Wold-style-cast>
             $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>
             # g++ 12 sees overlaps in std::string concatenation that are not there (GCC PR 105651).
-            $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+            $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+            # And unset values in Eigen's matrices of bounded size, which are set.
+            $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 target_include_directories(lodemark_flags INTERFACE ${CMAKE_SOURCE_DIR}
                                                     ${CMAKE_SOURCE_DIR}/core/include)
 
