@@ -20,9 +20,11 @@ constexpr double kReflectionsAlike = 3.0;
 constexpr double kConverged_m = 1e-4;
 constexpr double kUnknownBias_m = 1e4;  // a sigma beyond which a bias counts as not known
 
-// Ranges that must fit the error model beyond those that determine the unknowns: any three planes
-// and a clock meet somewhere.
+// Ranges, in sum of probabilities, that must fit the error model beyond those that determine the
+// unknowns, as far as there are more: any three spheres and a clock meet somewhere. The slack is
+// for what even good ranges lack to certainty.
 constexpr double kAgreeingBeyondNeeded = 1.0;
+constexpr double kAgreementSlack = 0.5;
 
 // Ranges that must be likelier noise than anything else, in sum of probabilities. Where a receiver
 // has hardly a lock, the error model can explain everything as late and still be tens of
@@ -239,10 +241,8 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
     weights_[i] = terms.core_share / (row.error.sigma_m * row.error.sigma_m);
   }
   const double needed = static_cast<double>(observations.size()) - redundancy;
-  // Where nothing is left to agree, all ranges must look like ordinary noise.
-  const bool agree = redundancy > 0 ? explained >= needed + kAgreeingBeyondNeeded
-                                    : ordinary >= kOrdinaryWithoutCheck * needed;
-  if (!agree || ordinary < kFewestOrdinary) {
+  const double beyond = std::min(kAgreeingBeyondNeeded, 0.5 * redundancy) - kAgreementSlack;
+  if (explained < needed + beyond || ordinary < kFewestOrdinary) {
     return estimate->status = PointStatus::kInconsistent;
   }
 
