@@ -5,7 +5,7 @@
 
 #include "core/base/units.h"
 #include "core/geo/geodetic.h"
-#include "core/gnss/troposphere.h"
+#include "core/session/atmosphere_above.h"
 
 namespace lodemark {
 namespace {
@@ -163,7 +163,9 @@ void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d&
   ranges_.clear();
   rates_.clear();
   rate_signals_.clear();
+  merged_.clear();
   const Geodetic place = GeodeticFromEcef(place_in_ecef);
+  const AtmosphereAbove atmosphere(options_, ionosphere, place, place_in_ecef, epoch.time_gps_ns);
   const Eigen::Matrix3d enu_from_ecef = EnuFromEcefRotation(place);
   // Beside ranges free of the ionosphere, what it leaves in the others is not common any more.
   const bool combine = weights.surveying() && options_.ionosphere != IonosphereChoice::kNone;
@@ -190,41 +192,16 @@ void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d&
       status.verdict = SatelliteVerdict::kWeakSignal;
       continue;
     }
-    double ionosphere_sigma_m = 0.0;
-    double troposphere_sigma_m = 0.0;
-    if (options_.ionosphere != IonosphereChoice::kNone) {
-      std::optional<IonosphereModel::Kind> kind;
-      switch (options_.ionosphere) {
-        case IonosphereChoice::kKlobuchar:
-          kind = IonosphereModel::Kind::kKlobuchar;
-          break;
-        case IonosphereChoice::kBdgim:
-          kind = IonosphereModel::Kind::kBdgim;
-          break;
-        case IonosphereChoice::kNtcmG:
-          kind = IonosphereModel::Kind::kNtcmG;
-          break;
-        case IonosphereChoice::kClimatology:
-          kind = IonosphereModel::Kind::kClimatology;
-          break;
-        case IonosphereChoice::kBest:
-        case IonosphereChoice::kNone:
-          break;
-      }
-      prepared.ionosphere_m =
-          ionosphere.Delay(place, place_in_ecef, prepared.satellite_in_ecef, look,
-                           epoch.time_gps_ns, prepared.frequency_hz, &ionosphere_sigma_m, kind);
-    }
-    if (options_.troposphere != TroposphereChoice::kNone) {
-      prepared.troposphere_m =
-          TroposphereDelay(place, look.elevation_rad, epoch.time_gps_ns, &troposphere_sigma_m);
-    }
+    const AtmosphereDelays air =
+        atmosphere.At(prepared.satellite_in_ecef, look, prepared.frequency_hz);
+    prepared.ionosphere_m = air.ionosphere_m;
+    prepared.troposphere_m = air.troposphere_m;
     const double orbit_sigma_m = OrbitSigma(prepared.satellite);
-    prepared.ionosphere_variance_m2 = ionosphere_sigma_m * ionosphere_sigma_m;
+    prepared.ionosphere_variance_m2 = air.ionosphere_sigma_m * air.ionosphere_sigma_m;
     const double channel_sigma_m =
         signal.satellite.system == System::kGlonass ? kGlonassChannelSigma_m : 0.0;
     prepared.own_variance_m2 = orbit_sigma_m * orbit_sigma_m +
-                               troposphere_sigma_m * troposphere_sigma_m +
+                               air.troposphere_sigma_m * air.troposphere_sigma_m +
                                channel_sigma_m * channel_sigma_m;
 
     RangeObservation range;
@@ -232,44 +209,52 @@ void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d&
     range.range_m = signal.pseudorange_m + kSpeedOfLight_mps * prepared.satellite.clock_bias_s -
                     prepared.ionosphere_m - prepared.troposphere_m;
     range.clock_group = prepared.clock_group;
-    SignalQuality quality;
-    quality.cn0_dbhz = status.cn0_dbhz;
-    quality.elevation_rad = look.elevation_rad;
-    quality.reported_sigma_m = signal.Has(kHasPseudorangeSigma) ? signal.pseudorange_sigma_m : 0.0;
-    quality.model_sigma_m =
-        std::sqrt(prepared.own_variance_m2 +
-                  ionosphere_share * ionosphere_share * prepared.ionosphere_variance_m2);
+    SignalQuality quality = QualityOf(signal, prepared, ionosphere_share);
     quality.rate_disagreement_m = rate_disagreements_m[prepared.index];
-    quality.wideband =
-        signal.signal.band == '5' || signal.signal.band == '7' || signal.signal.band == '8';
-    quality.multipath_reported = (signal.flags & kMultipathDetected) != 0;
     prepared.weight = weights.ErrorModel(prepared.clock_group, quality);
     range.error = prepared.weight.error;
     status.sigma_m = range.error.sigma_m;
 
-    if (signal.Has(kHasDoppler)) {
-      RangeRateObservation rate;
-      rate.direction_in_ecef = (prepared.satellite_in_ecef - place_in_ecef).normalized();
-      const double wavelength_m = kSpeedOfLight_mps / prepared.frequency_hz;
-      // The satellite's part of the rate moves over; the time of flight changes with the rate too.
-      const double satellite_rate_mps =
-          prepared.satellite_velocity_in_ecef.dot(rate.direction_in_ecef);
-      rate.rate_mps = -signal.doppler_hz * wavelength_m -
-                      satellite_rate_mps * (1.0 - satellite_rate_mps / kSpeedOfLight_mps) +
-                      kSpeedOfLight_mps * prepared.satellite.clock_drift_sps;
-      const double cn0_dbhz = status.cn0_dbhz > 0.0 ? status.cn0_dbhz : 40.0;
-      const double noise_mps = 0.1 * std::pow(10.0, (40.0 - cn0_dbhz) / 20.0);
-      rate.sigma_mps = std::hypot(0.05, noise_mps);
-      if (signal.Has(kHasRangeRateSigma)) {
-        rate.sigma_mps = std::max(rate.sigma_mps, signal.range_rate_sigma_mps);
-      }
-      rates_.push_back(rate);
-      rate_signals_.push_back(prepared.index);
-    }
+    if (signal.Has(kHasDoppler)) AddRate(signal, prepared, place_in_ecef);
     used_.push_back(prepared);
     ranges_.push_back(range);
   }
   if (combine) CombineBands(weights);
+}
+
+SignalQuality GnssEpochModel::QualityOf(const SignalObservation& signal,
+                                        const PreparedSignal& prepared,
+                                        double ionosphere_share) const {
+  SignalQuality quality;
+  quality.cn0_dbhz = signal.Has(kHasCn0) ? signal.cn0_dbhz : 0.0;
+  quality.elevation_rad = prepared.elevation_rad;
+  quality.reported_sigma_m = signal.Has(kHasPseudorangeSigma) ? signal.pseudorange_sigma_m : 0.0;
+  quality.model_sigma_m = std::sqrt(prepared.own_variance_m2 + ionosphere_share * ionosphere_share *
+                                                                   prepared.ionosphere_variance_m2);
+  quality.wideband =
+      signal.signal.band == '5' || signal.signal.band == '7' || signal.signal.band == '8';
+  quality.multipath_reported = (signal.flags & kMultipathDetected) != 0;
+  return quality;
+}
+
+void GnssEpochModel::AddRate(const SignalObservation& signal, const PreparedSignal& prepared,
+                             const Eigen::Vector3d& place_in_ecef) {
+  RangeRateObservation rate;
+  rate.direction_in_ecef = (prepared.satellite_in_ecef - place_in_ecef).normalized();
+  const double wavelength_m = kSpeedOfLight_mps / prepared.frequency_hz;
+  // The satellite's part of the rate moves over; the time of flight changes with the rate too.
+  const double satellite_rate_mps = prepared.satellite_velocity_in_ecef.dot(rate.direction_in_ecef);
+  rate.rate_mps = -signal.doppler_hz * wavelength_m -
+                  satellite_rate_mps * (1.0 - satellite_rate_mps / kSpeedOfLight_mps) +
+                  kSpeedOfLight_mps * prepared.satellite.clock_drift_sps;
+  const double cn0_dbhz = signal.Has(kHasCn0) && signal.cn0_dbhz > 0.0 ? signal.cn0_dbhz : 40.0;
+  const double noise_mps = 0.1 * std::pow(10.0, (40.0 - cn0_dbhz) / 20.0);
+  rate.sigma_mps = std::hypot(0.05, noise_mps);
+  if (signal.Has(kHasRangeRateSigma)) {
+    rate.sigma_mps = std::max(rate.sigma_mps, signal.range_rate_sigma_mps);
+  }
+  rates_.push_back(rate);
+  rate_signals_.push_back(prepared.index);
 }
 
 void GnssEpochModel::CombineBands(const RangeWeights& weights) {
@@ -290,21 +275,17 @@ void GnssEpochModel::CombineBands(const RangeWeights& weights) {
       range.range_m = amplification * (factor * (range.range_m + first.ionosphere_m) -
                                        (ranges_[k].range_m + second.ionosphere_m));
       range.clock_group = group;
-      first.weight.noise_variance_m2 =
-          amplification * amplification *
-          (factor * factor * first.weight.noise_variance_m2 + second.weight.noise_variance_m2);
-      first.weight.other_variance_m2 = first.own_variance_m2;
-      range.error.sigma_m = std::sqrt(weights.NoiseFactor(group) * first.weight.noise_variance_m2 +
-                                      first.weight.other_variance_m2);
-      first.weight.error = range.error;
-      first.partner = second.index;
+      first.weight =
+          weights.Combined(group, first.weight, second.weight, factor, first.own_variance_m2);
+      range.error = first.weight.error;
+      first.combined = true;
       first.clock_group = group;
       break;
     }
-    if (first.partner != PreparedSignal::kAlone) {
-      for (std::size_t k = i + 1; k < used_.size(); ++k) {
-        used_[k].merged = used_[k].merged || used_[k].satellite_id == first.satellite_id;
-      }
+    for (std::size_t k = i + 1; first.combined && k < used_.size(); ++k) {
+      if (used_[k].merged || used_[k].satellite_id != first.satellite_id) continue;
+      used_[k].merged = true;
+      merged_.push_back({used_[k].index, first.index});
     }
     if (kept != i) {
       used_[kept] = used_[i];

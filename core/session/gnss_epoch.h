@@ -54,11 +54,14 @@ struct PreparedSignal {
   double ionosphere_variance_m2 = 0.0;  // of the whole model error, common part included
   double own_variance_m2 = 0.0;         // of orbit, clock and troposphere
   WeightedModel weight;
-  // Index of the signal of another band combined with this one, or kAlone.
-  std::size_t partner = kAlone;
-  bool merged = false;  // into another signal of the satellite
+  bool combined = false;  // with a signal of another band
+  bool merged = false;    // into another signal of the satellite
+};
 
-  static constexpr std::size_t kAlone = static_cast<std::size_t>(-1);
+// A signal that became part of another's range; both indices into ObservationEpoch::signals.
+struct MergedSignal {
+  std::size_t index = 0;
+  std::size_t into = 0;
 };
 
 // Turns an epoch into ranges and range rates. Keeps its workspace.
@@ -84,6 +87,7 @@ class GnssEpochModel {
              std::vector<SatelliteStatus>* statuses);
 
   const std::vector<PreparedSignal>& used_signals() const { return used_; }
+  const std::vector<MergedSignal>& merged_signals() const { return merged_; }
   const std::vector<RangeObservation>& ranges() const { return ranges_; }  // of used_signals
   const std::vector<RangeRateObservation>& rates() const { return rates_; }
   const std::vector<std::size_t>& rate_signals() const { return rate_signals_; }  // of the epoch
@@ -91,6 +95,11 @@ class GnssEpochModel {
   void Forget() { groups_.Forget(); }
 
  private:
+  SignalQuality QualityOf(const SignalObservation& signal, const PreparedSignal& prepared,
+                          double ionosphere_share) const;
+  void AddRate(const SignalObservation& signal, const PreparedSignal& prepared,
+               const Eigen::Vector3d& place_in_ecef);
+
   // Replaces the signals of a satellite by one range free of the ionosphere, where two bands
   // allow it.
   void CombineBands(const RangeWeights& weights);
@@ -99,6 +108,7 @@ class GnssEpochModel {
   ClockGroups groups_;
   std::vector<PreparedSignal> prepared_;
   std::vector<PreparedSignal> used_;
+  std::vector<MergedSignal> merged_;
   std::vector<RangeObservation> ranges_;
   std::vector<RangeRateObservation> rates_;
   std::vector<std::size_t> rate_signals_;

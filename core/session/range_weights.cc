@@ -54,7 +54,31 @@ constexpr double kLatePriorCount = 5.0;
 constexpr double kNoiseFading = 0.995;
 constexpr double kLateFading = 0.99;
 
+// Redundancy from which the elevation law is estimated instead of the stated one, and how fast past
+// epochs fade from it.
+constexpr double kFewestForLaw = 30.0;
+constexpr double kLawFading = 0.999;
+constexpr double kSmallestLawVariance_m2 = 1e-4;
+
+// 1 / sin^2 of the elevation.
+double Obliquity(double elevation_rad) {
+  const double sine = std::max(std::sin(elevation_rad), kSmallestSine);
+  return 1.0 / (sine * sine);
+}
+
 }  // namespace
+
+RangeWeights::RangeWeights(const SessionOptions& options)
+    : by_elevation_(options.weight == WeightChoice::kElevation),
+      learn_law_(by_elevation_ && options.estimate_variance_components),
+      stated_law_({options.elevation_a_m * options.elevation_a_m,
+                   options.elevation_b_m * options.elevation_b_m}),
+      law_(stated_law_) {}
+
+double RangeWeights::ElevationVariance(double elevation_rad) const {
+  return std::max(law_.constant + law_.proportional * Obliquity(elevation_rad),
+                  kSmallestLawVariance_m2);
+}
 
 void RangeWeights::NoteStrength(int clock_group, double cn0_dbhz) {
   Group& group = groups_[static_cast<std::size_t>(clock_group)];
@@ -62,6 +86,7 @@ void RangeWeights::NoteStrength(int clock_group, double cn0_dbhz) {
 }
 
 double RangeWeights::NoiseFactor(int clock_group) const {
+  if (by_elevation_) return 1.0;
   const Group& group = groups_[static_cast<std::size_t>(clock_group)];
   return (kNoisePriorCount + group.squares) / (kNoisePriorCount + group.count);
 }
@@ -69,16 +94,21 @@ double RangeWeights::NoiseFactor(int clock_group) const {
 WeightedModel RangeWeights::ErrorModel(int clock_group, const SignalQuality& quality) const {
   const Group& group = groups_[static_cast<std::size_t>(clock_group)];
   const double cn0_dbhz = quality.cn0_dbhz > 0.0 ? quality.cn0_dbhz : kUsualCn0_dbhz;
-  const double sine = std::max(std::sin(quality.elevation_rad), kSmallestSine);
   const double thermal_m = kThermalAt40_m * std::pow(10.0, (40.0 - cn0_dbhz) / 20.0);
   const double share = quality.wideband ? kWidebandShare : 1.0;
   WeightedModel model;
-  model.noise_variance_m2 = share * share * (surveying_ ? kSurveyNoiseShare : 1.0) *
-                            (kMultipath_m * kMultipath_m + thermal_m * thermal_m) *
-                            (1.0 - kElevationShare + kElevationShare / (sine * sine));
+  model.noise_variance_m2 =
+      share * share * (surveying_ ? kSurveyNoiseShare : 1.0) *
+      (kMultipath_m * kMultipath_m + thermal_m * thermal_m) *
+      (1.0 - kElevationShare + kElevationShare * Obliquity(quality.elevation_rad));
   model.other_variance_m2 =
       quality.model_sigma_m * quality.model_sigma_m +
       kDisagreementShare * quality.rate_disagreement_m * quality.rate_disagreement_m;
+  model.elevation_rad = quality.elevation_rad;
+  if (by_elevation_) {
+    model.noise_variance_m2 = ElevationVariance(quality.elevation_rad);
+    model.other_variance_m2 = 0.0;
+  }
   model.error.sigma_m =
       std::sqrt(NoiseFactor(clock_group) * model.noise_variance_m2 + model.other_variance_m2);
 
@@ -97,12 +127,31 @@ WeightedModel RangeWeights::ErrorModel(int clock_group, const SignalQuality& qua
   return model;
 }
 
+WeightedModel RangeWeights::Combined(int clock_group, const WeightedModel& first,
+                                     const WeightedModel& second, double factor,
+                                     double own_variance_m2) const {
+  const double share = 1.0 / ((factor - 1.0) * (factor - 1.0));
+  WeightedModel model = first;
+  model.noise_variance_m2 =
+      share * (factor * factor * first.noise_variance_m2 + second.noise_variance_m2);
+  model.other_variance_m2 = by_elevation_ ? 0.0 : own_variance_m2;
+  model.amplification = share * (factor * factor + 1.0);
+  model.error.sigma_m =
+      std::sqrt(NoiseFactor(clock_group) * model.noise_variance_m2 + model.other_variance_m2);
+  return model;
+}
+
 void RangeWeights::Learn(int clock_group, const WeightedModel& model, double residual_m,
                          double redundancy_share, double core_share, double late_share) {
   Group& group = groups_[static_cast<std::size_t>(clock_group)];
   const double u = residual_m / model.error.sigma_m;
   group.squares += core_share * u * u * NoiseFactor(clock_group);
   group.count += core_share * redundancy_share;
+  if (learn_law_) {
+    components_.Add(Obliquity(model.elevation_rad),
+                    core_share * residual_m * residual_m / model.amplification,
+                    core_share * redundancy_share);
+  }
   late_found_ += late_share;
   late_expected_ += model.error.late_probability;
 }
@@ -115,8 +164,20 @@ void RangeWeights::FinishEpoch() {
   }
   late_found_ *= kLateFading;
   late_expected_ *= kLateFading;
+  if (!learn_law_) return;
+  if (components_.redundancy() >= kFewestForLaw) {
+    law_ = components_.Estimate(law_).value_or(law_);
+  }
+  components_.Fade(kLawFading);
 }
 
-void RangeWeights::Forget() { *this = RangeWeights(); }
+void RangeWeights::Forget() {
+  law_ = stated_law_;
+  components_ = VarianceComponents();
+  groups_ = {};
+  surveying_ = false;
+  late_found_ = 0.0;
+  late_expected_ = 0.0;
+}
 
 }  // namespace lodemark

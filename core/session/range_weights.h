@@ -5,8 +5,10 @@
 #include <array>
 #include <cstdint>
 
+#include "core/adjustment/variance_components.h"
 #include "core/fusion/clock_biases.h"
 #include "core/fusion/observation.h"
+#include "core/session/session.h"
 
 namespace lodemark {
 
@@ -26,14 +28,23 @@ struct WeightedModel {
   RangeErrorModel error;
   double noise_variance_m2 = 0.0;  // of the signal itself, before the learned factor
   double other_variance_m2 = 0.0;  // of models and disagreements
+  double elevation_rad = 0.0;
+  double amplification = 1.0;  // of the variance, by combining bands
 };
 
 class RangeWeights {
  public:
+  explicit RangeWeights(const SessionOptions& options);
+
   // To be called with every signal of an epoch before ErrorModel is asked.
   void NoteStrength(int clock_group, double cn0_dbhz);
 
   WeightedModel ErrorModel(int clock_group, const SignalQuality& quality) const;
+
+  // The model of two bands combined so that the ionosphere cancels. factor: how many times the
+  // delay of the first the second has; own_variance_m2: of orbit, clock and troposphere.
+  WeightedModel Combined(int clock_group, const WeightedModel& first, const WeightedModel& second,
+                         double factor, double own_variance_m2) const;
 
   // The receiver tracks what only surveying receivers track (GPS L2): finer code, better antenna.
   void NoteSurveyingReceiver() { surveying_ = true; }
@@ -50,12 +61,22 @@ class RangeWeights {
   void FinishEpoch();
   void Forget();
 
+  // a^2 and b^2 of the elevation law at present.
+  const VarianceLaw& elevation_law() const { return law_; }
+
  private:
+  double ElevationVariance(double elevation_rad) const;
+
   struct Group {
     double strongest_dbhz = 0.0;
     double squares = 0.0;
     double count = 0.0;
   };
+  bool by_elevation_ = false;
+  bool learn_law_ = false;
+  VarianceLaw stated_law_;
+  VarianceLaw law_;
+  VarianceComponents components_;
   std::array<Group, kMaxClockGroups> groups_ = {};
   bool surveying_ = false;
   double late_found_ = 0.0;     // posterior number of reflections

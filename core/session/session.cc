@@ -1,92 +1,87 @@
 #include "core/session/session.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <optional>
 #include <utility>
 #include <variant>
 
 #include "core/base/units.h"
-#include "core/fusion/clock_biases.h"
-#include "core/fusion/coarse_position.h"
-#include "core/fusion/point_adjustment.h"
-#include "core/fusion/velocity_adjustment.h"
 #include "core/gnss/android_observables.h"
-#include "core/gnss/ionosphere.h"
-#include "core/gnss/satellite_orbits.h"
-#include "core/session/accuracy.h"
-#include "core/session/gnss_epoch.h"
-#include "core/session/range_weights.h"
+#include "core/gnss/millisecond_jump.h"
+#include "core/gnss/navigation_message.h"
+#include "core/session/distinct_satellites.h"
+#include "core/session/epoch_order.h"
+#include "core/session/epoch_solver.h"
+#include "core/session/event_log.h"
+#include "core/session/glonass_slots.h"
+#include "core/session/raw_verdicts.h"
 
 namespace lodemark {
 namespace {
 
-constexpr std::size_t kMaxEvents = 256;
-constexpr double kFarFromStart_m = 1000.0;
+// Android's svid of GLONASS satellites given by channel.
+constexpr int kFirstChannelSvid = 93;
+constexpr int kLastChannelSvid = 106;
+constexpr std::int32_t kGlonassConstellation = 3;  // GnssStatus.CONSTELLATION_GLONASS
 
-EstimateStatus StatusOf(PointStatus status) {
-  switch (status) {
-    case PointStatus::kGood:
-      return EstimateStatus::kFix;
-    case PointStatus::kTooFew:
-      return EstimateStatus::kTooFewSatellites;
-    case PointStatus::kNotConverged:
-      return EstimateStatus::kNotConverged;
-    case PointStatus::kInconsistent:
-      break;
-  }
-  return EstimateStatus::kInconsistent;
+// GLONASS satellites rise and set by some degrees meanwhile.
+constexpr std::int64_t kNameSlotsEvery_ns = 300 * kSecond_ns;
+
+bool NamesChannels(const AndroidEpoch& epoch) {
+  return std::any_of(epoch.measurements.begin(), epoch.measurements.end(),
+                     [](const AndroidMeasurement& measurement) {
+                       return measurement.constellation_type == kGlonassConstellation &&
+                              measurement.svid >= kFirstChannelSvid &&
+                              measurement.svid <= kLastChannelSvid;
+                     });
 }
 
 }  // namespace
 
 struct Session::Impl {
   explicit Impl(const SessionOptions& session_options)
-      : options(session_options), model(session_options) {}
+      : options(session_options), solver(session_options) {}
 
   struct QueuedEpoch {
     std::int64_t time_ns = 0;
     ObservationEpoch epoch;
+    std::vector<SatelliteStatus> rangeless;  // raw measurements without a range
   };
 
-  void Note(EventKind kind, double value, std::string text) {
-    if (events.size() == kMaxEvents) events.erase(events.begin());
-    events.push_back({kind, estimate.time_ns, estimate.time_gps_ns, value, std::move(text)});
+  // The place in the queue for one more; null if there is none.
+  QueuedEpoch* NextSlot() {
+    return count == ring.size() ? nullptr : &ring[(first + count) % ring.size()];
   }
+  void Enqueue(QueuedEpoch* slot, std::int64_t time_ns);
+  void Add(NavigationRecord record);
 
-  void Process(const QueuedEpoch& queued);
-  void Solve(const ObservationEpoch& epoch);
-  void SolveVelocity(const ObservationEpoch& epoch);
-  void Learn();
+  // False if the epoch is to be dropped.
+  bool Admit(QueuedEpoch* queued);
+  void Process(QueuedEpoch* queued);
+  void NameGlonassSlots();
 
   SessionOptions options;
-  SatelliteOrbits orbits;
-  IonosphereModel ionosphere;
+  EpochSolver solver;
+  NavigationMessageDecoder messages;
+  std::vector<NavigationRecord> records;
+  std::int64_t last_pushed_gps_ns = 0;
+
   AndroidObservables android;
   std::vector<RawOutcome> raw_outcomes;
+  bool names_channels = false;  // the phone gives channels for GLONASS satellites
+  std::int64_t slots_named_gps_ns = 0;
 
   // A ring of epochs, so that pushing reuses their memory.
   std::vector<QueuedEpoch> ring;
   std::size_t first = 0;
   std::size_t count = 0;
 
-  GnssEpochModel model;
-  RangeWeights weights;
-  CodeRateCheck code_rate;
-  ClockBiases biases;
-  PointAdjustment adjustment;
-  PointEstimate point;
-  std::vector<ObservationVerdict> verdicts;
-  VelocityEstimate velocity;
-  std::vector<RateVerdict> rate_verdicts;
-  std::optional<Eigen::Vector3d> last_place_in_ecef;  // only where to linearise
-  std::int64_t last_gps_ns = 0;
-  bool had_fix = false;
-
+  EpochOrder order;
+  MillisecondJumpRepair jumps;
+  bool discontinuity = false;  // of an epoch that was dropped
   SessionEstimate estimate;
   std::vector<SatelliteStatus> statuses;
-  std::vector<SessionEvent> events;
+  EventLog events;
 };
 
 Session::Session(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -101,181 +96,189 @@ Result<std::unique_ptr<Session>> Session::Open(const SessionOptions& options) {
   return std::unique_ptr<Session>(new Session(std::move(impl)));
 }
 
+namespace {
+
+Error QueueFull() {
+  return {ErrorCode::kQueueFull, "session: the queue of epochs is full; process first"};
+}
+
+}  // namespace
+
 Status Session::PushObservationEpoch(std::int64_t time_ns, const ObservationEpoch& epoch) {
-  Impl& s = *impl_;
-  if (s.count == s.ring.size()) {
-    return Error{ErrorCode::kQueueFull, "session: the queue of epochs is full; process first"};
-  }
-  Impl::QueuedEpoch& slot = s.ring[(s.first + s.count) % s.ring.size()];
-  slot.time_ns = s.options.time_base == TimeBase::kGps ? epoch.time_gps_ns : time_ns;
-  slot.epoch = epoch;
-  ++s.count;
+  Impl::QueuedEpoch* slot = impl_->NextSlot();
+  if (slot == nullptr) return QueueFull();
+  slot->epoch = epoch;
+  slot->rangeless.clear();
+  impl_->Enqueue(slot, time_ns);
   return {};
 }
 
 Status Session::PushAndroidEpoch(std::int64_t time_ns, const AndroidEpoch& epoch) {
   Impl& s = *impl_;
-  if (s.count == s.ring.size()) {
-    return Error{ErrorCode::kQueueFull, "session: the queue of epochs is full; process first"};
-  }
-  Impl::QueuedEpoch& slot = s.ring[(s.first + s.count) % s.ring.size()];
-  s.android.Convert(epoch, &slot.epoch, &s.raw_outcomes);
-  slot.time_ns = s.options.time_base == TimeBase::kGps ? slot.epoch.time_gps_ns : time_ns;
-  ++s.count;
+  Impl::QueuedEpoch* slot = s.NextSlot();
+  if (slot == nullptr) return QueueFull();
+  s.android.Convert(epoch, &slot->epoch, &s.raw_outcomes);
+  CollectRangeless(epoch, s.raw_outcomes, s.android.glonass_channels(), &slot->rangeless);
+  s.names_channels = s.names_channels || NamesChannels(epoch);
+  s.Enqueue(slot, time_ns);
   return {};
 }
 
-Status Session::PushNavigation(const NavigationRecord& record) {
-  Impl& s = *impl_;
-  if (const auto* kepler = std::get_if<KeplerEphemeris>(&record)) s.orbits.Add(*kepler);
-  if (const auto* state = std::get_if<StateEphemeris>(&record)) s.orbits.Add(*state);
-  if (const auto* ionosphere = std::get_if<IonosphereMessage>(&record)) {
-    s.ionosphere.Add(*ionosphere);
+void Session::Impl::Enqueue(QueuedEpoch* slot, std::int64_t time_ns) {
+  slot->time_ns = options.time_base == TimeBase::kGps ? slot->epoch.time_gps_ns : time_ns;
+  if (slot->epoch.time_gps_ns != 0) last_pushed_gps_ns = slot->epoch.time_gps_ns;
+  ++count;
+}
+
+void Session::Impl::Add(NavigationRecord record) {
+  if (auto* kepler = std::get_if<KeplerEphemeris>(&record)) {
+    kepler->healthy = kepler->healthy || options.accept_unhealthy;
+    solver.orbits().Add(*kepler);
+  } else if (auto* state = std::get_if<StateEphemeris>(&record)) {
+    state->healthy = state->healthy || options.accept_unhealthy;
+    solver.orbits().Add(*state);
+    if (state->satellite.system == System::kGlonass) {
+      android.glonass_channels().SetChannel(state->satellite.number, state->glonass_channel);
+    }
+  } else if (const auto* ionosphere = std::get_if<IonosphereMessage>(&record)) {
+    solver.ionosphere().Add(*ionosphere);
   }
+}
+
+Status Session::PushNavigation(const NavigationRecord& record) {
+  impl_->Add(record);
   return {};
 }
 
 Status Session::PushPreciseOrbits(const PreciseOrbits& orbits) {
-  impl_->orbits.Add(orbits);
+  impl_->solver.orbits().Add(orbits);
   return {};
 }
 
-Status Session::PushNavigationMessage(std::int32_t, std::int32_t, std::int32_t, std::int32_t,
-                                      std::span<const std::uint8_t>) {
+Status Session::PushNavigationMessage(std::int32_t type, std::int32_t svid, std::int32_t,
+                                      std::int32_t, std::span<const std::uint8_t> bytes) {
+  Impl& s = *impl_;
+  if (s.last_pushed_gps_ns == 0) {
+    return Error{ErrorCode::kOutOfOrder,
+                 "navigation message: no epoch has given a GPS time yet; push epochs first"};
+  }
+  s.records.clear();
+  const MessageVerdict verdict =
+      s.messages.Push(type, svid, bytes, s.last_pushed_gps_ns, &s.records);
+  for (NavigationRecord& record : s.records) s.Add(std::move(record));
+  switch (verdict) {
+    case MessageVerdict::kTaken:
+    case MessageVerdict::kUnused:
+      break;
+    case MessageVerdict::kUnknownType:
+      return Error{ErrorCode::kUnsupported,
+                   "navigation message: type " + std::to_string(type) + " is not decoded"};
+    case MessageVerdict::kUnknownSatellite:
+      return Error{ErrorCode::kBadData, "navigation message: svid " + std::to_string(svid) +
+                                            " is no satellite of the message's system"};
+    case MessageVerdict::kUnknownTime:
+      return Error{ErrorCode::kOutOfOrder,
+                   "navigation message: the last epoch's GPS time is not between 1980 and 2100"};
+    case MessageVerdict::kMalformed:
+      return Error{ErrorCode::kBadData, "navigation message: svid " + std::to_string(svid) +
+                                            ": too short or not of its type"};
+    case MessageVerdict::kBadParity:
+      return Error{ErrorCode::kBadData,
+                   "navigation message: svid " + std::to_string(svid) + ": parity does not fit"};
+  }
   return {};
 }
 
 bool Session::ProcessNext() {
   Impl& s = *impl_;
   if (s.count == 0) return false;
-  const Impl::QueuedEpoch& queued = s.ring[s.first];
+  Impl::QueuedEpoch* queued = &s.ring[s.first];
   s.first = (s.first + 1) % s.ring.size();
   --s.count;
-  s.Process(queued);
+  s.estimate = SessionEstimate();
+  s.estimate.time_ns = queued->time_ns;
+  s.estimate.time_gps_ns = queued->epoch.time_gps_ns;
+  s.statuses.clear();
+  s.events.SetTime(queued->time_ns, queued->epoch.time_gps_ns);
+  if (s.Admit(queued)) s.Process(queued);
   return true;
 }
 
-void Session::Impl::Process(const QueuedEpoch& queued) {
-  const ObservationEpoch& epoch = queued.epoch;
-  estimate = SessionEstimate();
-  estimate.time_ns = queued.time_ns;
-  estimate.time_gps_ns = epoch.time_gps_ns;
-  statuses.assign(epoch.signals.size(), SatelliteStatus());
-  if (last_gps_ns != 0 && epoch.time_gps_ns > last_gps_ns) {
-    biases.Advance(1e-9 * static_cast<double>(epoch.time_gps_ns - last_gps_ns));
+bool Session::Impl::Admit(QueuedEpoch* queued) {
+  ObservationEpoch& epoch = queued->epoch;
+  if (epoch.time_gps_ns == 0) return true;  // no time, nothing to put in order
+  const std::int64_t older_by_ns = order.OlderBy(epoch.time_gps_ns);
+  const EpochPlace place = order.Judge(epoch.time_gps_ns);
+  if (place == EpochPlace::kDuplicate) events.NoteDuplicate();
+  if (place == EpochPlace::kBackwards || place == EpochPlace::kRestart) {
+    events.NoteTimeBackwards(older_by_ns, place == EpochPlace::kRestart);
   }
-  last_gps_ns = epoch.time_gps_ns;
-  Solve(epoch);
-  had_fix = estimate.status == EstimateStatus::kFix;
+  if (place == EpochPlace::kRestart) {
+    jumps.Reset();
+    solver.ForgetTime();
+  }
+  epoch.clock_discontinuity = epoch.clock_discontinuity || discontinuity;
+  const bool dropped = place == EpochPlace::kDuplicate || place == EpochPlace::kBackwards;
+  discontinuity = dropped && epoch.clock_discontinuity;
+  return !dropped;
 }
 
-void Session::Impl::Solve(const ObservationEpoch& epoch) {
-  model.FindSatellites(epoch, orbits, &statuses);
-  model.NoteStrengths(epoch, &weights);
-  const std::vector<double>& disagreements_m = code_rate.Update(epoch);
-  std::optional<Eigen::Vector3d> place = last_place_in_ecef;
-  if (!place) place = CoarsePosition(model.CoarseRanges(epoch));
-  if (!place) {
-    estimate.status = EstimateStatus::kTooFewSatellites;
-    return;
+void Session::Impl::Process(QueuedEpoch* queued) {
+  ObservationEpoch& epoch = queued->epoch;
+  if (const std::optional<MillisecondJump> jump = jumps.Repair(&epoch)) events.NoteJump(*jump);
+  if (epoch.clock_discontinuity) {
+    events.NoteDiscontinuity();
+    solver.ForgetRanges();
   }
-  PointStatus status = PointStatus::kTooFew;
-  for (int pass = 0; pass < 3; ++pass) {
-    model.Model(epoch, *place, ionosphere, weights, disagreements_m, &statuses);
-    PointOptions point_options;
-    status = adjustment.Solve(model.ranges(), *place, biases, point_options, &point, &verdicts);
-    if (status != PointStatus::kGood) break;
-    const double moved_m = (point.position_in_ecef - *place).norm();
-    place = point.position_in_ecef;
-    if (moved_m < kFarFromStart_m) break;
+  solver.Solve(epoch, &estimate, &statuses);
+  if (estimate.status == EstimateStatus::kFix) {
+    // The repair moved tag and ranges alike; the clock is told against the tag as received.
+    const std::int64_t moved_ns = estimate.time_gps_ns - epoch.time_gps_ns;
+    estimate.clock_bias_m += kSpeedOfLight_mps * 1e-9 * static_cast<double>(moved_ns);
+    NameGlonassSlots();
   }
-  estimate.status = StatusOf(status);
-  if (status != PointStatus::kGood) {
-    last_place_in_ecef.reset();
-    return;
-  }
-  last_place_in_ecef = point.position_in_ecef;
-  estimate.position_in_ecef = point.position_in_ecef;
-  estimate.position = GeodeticFromEcef(point.position_in_ecef);
-  estimate.covariance_enu_m2 = point.covariance_enu_m2;
-  estimate.accuracy_m = RadiusOfProbability(point.covariance_enu_m2.topLeftCorner<2, 2>(), 0.68);
-  estimate.vertical_accuracy_m = std::sqrt(point.covariance_enu_m2(2, 2)) * 0.9945;
-  estimate.clock_bias_m = point.clock_m;
-  estimate.sources = 1;
-  for (std::size_t i = 0; i < model.used_signals().size(); ++i) {
-    const PreparedSignal& prepared = model.used_signals()[i];
-    SatelliteStatus& satellite = statuses[prepared.index];
-    const ObservationVerdict& verdict = verdicts[i];
-    satellite.has_residual = true;
-    satellite.residual_m = verdict.residual_m;
-    satellite.weight = verdict.weight;
-    satellite.verdict = !verdict.observable     ? SatelliteVerdict::kUnobservable
-                        : verdict.weight >= 0.5 ? SatelliteVerdict::kUsed
-                        : verdict.weight >= 0.1 ? SatelliteVerdict::kDownWeighted
-                                                : SatelliteVerdict::kOutlier;
-    if (verdict.used) ++estimate.satellites_used;
-  }
-  SolveVelocity(epoch);
-  Learn();
-}
-
-void Session::Impl::SolveVelocity(const ObservationEpoch&) {
-  if (!AdjustVelocity(model.rates(), &velocity, &rate_verdicts)) return;
-  const Eigen::Matrix3d enu_from_ecef = EnuFromEcefRotation(estimate.position);
-  estimate.has_velocity = true;
-  estimate.velocity_enu_mps = enu_from_ecef * velocity.velocity_in_ecef_mps;
-  estimate.velocity_covariance_enu_m2ps2 =
-      enu_from_ecef * velocity.covariance_ecef_m2ps2 * enu_from_ecef.transpose();
-  estimate.speed_accuracy_mps =
-      RadiusOfProbability(estimate.velocity_covariance_enu_m2ps2.topLeftCorner<2, 2>(), 0.68);
-  estimate.clock_drift_mps = velocity.clock_drift_mps;
-  for (std::size_t i = 0; i < rate_verdicts.size(); ++i) {
-    SatelliteStatus& satellite = statuses[model.rate_signals()[i]];
-    satellite.has_rate_residual = true;
-    satellite.range_rate_residual_mps = rate_verdicts[i].residual_mps;
-  }
-}
-
-void Session::Impl::Learn() {
-  if (options.learn_biases) {
-    for (int group = 0; group < kMaxClockGroups; ++group) {
-      if (point.groups_seen >> group & 1u) {
-        biases.Set(group, point.biases[static_cast<std::size_t>(group)]);
-      }
+  MergeRangeless(queued->rangeless, options.systems, &statuses);
+  DistinctSatellites seen;
+  for (const SatelliteStatus& status : statuses) {
+    seen.Add(status.satellite);
+    if (status.verdict == SatelliteVerdict::kNoEphemeris ||
+        status.verdict == SatelliteVerdict::kEphemerisTooOld) {
+      events.NoteEphemerisMissing(status);
     }
   }
-  if (point.redundancy <= 0) return;
-  const double share =
-      static_cast<double>(point.redundancy) / static_cast<double>(model.used_signals().size());
-  for (std::size_t i = 0; i < model.used_signals().size(); ++i) {
-    const PreparedSignal& prepared = model.used_signals()[i];
-    weights.Learn(prepared.clock_group, prepared.weight, verdicts[i].residual_m, share,
-                  verdicts[i].weight, verdicts[i].late_share);
-  }
-  weights.FinishEpoch();
+  estimate.satellites_seen = seen.count();
+  events.NoteOutcome(estimate);
+}
+
+void Session::Impl::NameGlonassSlots() {
+  if (!names_channels) return;
+  const std::int64_t since_ns = estimate.time_gps_ns - slots_named_gps_ns;
+  if (slots_named_gps_ns != 0 && since_ns >= 0 && since_ns < kNameSlotsEvery_ns) return;
+  slots_named_gps_ns = estimate.time_gps_ns;
+  NameVisibleSlots(solver.orbits(), estimate.time_gps_ns, estimate.position_in_ecef,
+                   &android.glonass_channels());
 }
 
 std::int32_t Session::queued() const { return static_cast<std::int32_t>(impl_->count); }
 const SessionEstimate& Session::estimate() const { return impl_->estimate; }
 std::span<const SatelliteStatus> Session::satellites() const { return impl_->statuses; }
-std::span<const SessionEvent> Session::events() const { return impl_->events; }
-void Session::ClearEvents() { impl_->events.clear(); }
+std::span<const SessionEvent> Session::events() const { return impl_->events.events(); }
+void Session::ClearEvents() { impl_->events.Clear(); }
 
 void Session::Reset() {
   Impl& s = *impl_;
   s.android.Reset();
+  s.last_pushed_gps_ns = 0;
+  s.slots_named_gps_ns = 0;
   s.first = 0;
   s.count = 0;
-  s.model.Forget();
-  s.weights.Forget();
-  s.code_rate.Forget();
-  s.biases.Forget();
-  s.last_place_in_ecef.reset();
-  s.last_gps_ns = 0;
-  s.had_fix = false;
+  s.solver.Forget();
+  s.order.Forget();
+  s.jumps.Reset();
+  s.discontinuity = false;
   s.estimate = SessionEstimate();
   s.statuses.clear();
-  s.events.clear();
+  s.events.Reset();
 }
 
 }  // namespace lodemark

@@ -54,7 +54,7 @@ struct SessionOptions {
 
 enum class EstimateStatus : std::uint8_t {
   kFix,
-  kNoData,  // nothing was processed yet
+  kNoData,  // nothing was processed yet, or the last epoch was dropped: the events say why
   kTooFewSatellites,
   kNoEphemeris,  // measurements, but no orbit for enough of them
   kNotConverged,
@@ -123,7 +123,7 @@ struct SatelliteStatus {
 enum class EventKind : std::uint8_t {
   kClockDiscontinuity,  // the receiver said so, or its bias was held anew
   kMillisecondJump,     // found and repaired
-  kTimeBackwards,       // an epoch older than the last one: dropped
+  kTimeBackwards,       // an epoch older than the last one: dropped, but for a restart
   kDuplicateEpoch,      // the same time twice: the second dropped
   kFirstFix,
   kFixLost,
@@ -154,7 +154,9 @@ class Session {
   Status PushNavigationMessage(std::int32_t type, std::int32_t svid, std::int32_t message_id,
                                std::int32_t submessage_id, std::span<const std::uint8_t> bytes);
 
-  // Takes the oldest queued epoch and turns it into an estimate. True if there was one.
+  // Takes the oldest queued epoch and turns it into an estimate. True if there was one, even if it
+  // was dropped for its time: then the estimate has that time and kNoData, no satellites are
+  // listed, and nothing is remembered of the epoch but its event.
   bool ProcessNext();
   std::int32_t queued() const;
 

@@ -1,0 +1,209 @@
+#include "core/session/epoch_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/fusion/coarse_position.h"
+#include "core/geo/geodetic.h"
+#include "core/session/accuracy.h"
+#include "core/session/distinct_satellites.h"
+#include "core/session/redundancy.h"
+
+namespace lodemark {
+namespace {
+
+constexpr double kFarFromStart_m = 1000.0;
+
+// Half-width of a normal error that holds 68 % of it, in sigmas.
+constexpr double kHalfWidth68 = 0.99446;
+
+// Satellites that a position takes at least, with a height known from elsewhere or not.
+constexpr int kFewestSatellites = 4;
+
+EstimateStatus StatusOf(PointStatus status) {
+  switch (status) {
+    case PointStatus::kGood:
+      return EstimateStatus::kFix;
+    case PointStatus::kTooFew:
+      return EstimateStatus::kTooFewSatellites;
+    case PointStatus::kNotConverged:
+      return EstimateStatus::kNotConverged;
+    case PointStatus::kInconsistent:
+      break;
+  }
+  return EstimateStatus::kInconsistent;
+}
+
+SatelliteVerdict VerdictOf(const ObservationVerdict& verdict) {
+  if (!verdict.observable) return SatelliteVerdict::kUnobservable;
+  if (verdict.weight >= 0.5) return SatelliteVerdict::kUsed;
+  return verdict.weight >= 0.1 ? SatelliteVerdict::kDownWeighted : SatelliteVerdict::kOutlier;
+}
+
+// Whether it is orbits that are missing for a position, not measurements.
+bool LacksOrbits(std::span<const SatelliteStatus> statuses) {
+  DistinctSatellites with_orbit;
+  DistinctSatellites measured;
+  for (const SatelliteStatus& status : statuses) {
+    if (status.verdict == SatelliteVerdict::kSystemOff ||
+        status.verdict == SatelliteVerdict::kNotTracking ||
+        status.verdict == SatelliteVerdict::kUnknownSignal) {
+      continue;
+    }
+    measured.Add(status.satellite);
+    if (status.verdict != SatelliteVerdict::kNoEphemeris &&
+        status.verdict != SatelliteVerdict::kEphemerisTooOld) {
+      with_orbit.Add(status.satellite);
+    }
+  }
+  return with_orbit.count() < kFewestSatellites && measured.count() >= kFewestSatellites;
+}
+
+}  // namespace
+
+EpochSolver::EpochSolver(const SessionOptions& options)
+    : options_(options), model_(options), weights_(options) {}
+
+void EpochSolver::Solve(const ObservationEpoch& epoch, SessionEstimate* estimate,
+                        std::vector<SatelliteStatus>* statuses) {
+  if (last_gps_ns_ != 0 && epoch.time_gps_ns > last_gps_ns_) {
+    biases_.Advance(1e-9 * static_cast<double>(epoch.time_gps_ns - last_gps_ns_));
+  }
+  last_gps_ns_ = epoch.time_gps_ns;
+  statuses->assign(epoch.signals.size(), SatelliteStatus());
+  estimate->status = SolvePosition(epoch, statuses);
+  if (estimate->status == EstimateStatus::kTooFewSatellites && LacksOrbits(*statuses)) {
+    estimate->status = EstimateStatus::kNoEphemeris;
+  }
+  if (estimate->status != EstimateStatus::kFix) {
+    last_place_in_ecef_.reset();
+    return;
+  }
+  last_place_in_ecef_ = point_.position_in_ecef;
+  FillPosition(estimate);
+  Judge(estimate, statuses);
+  SolveVelocity(estimate, statuses);
+  Learn();
+  if (options_.height_memory) height_.Learn(*estimate);
+}
+
+EstimateStatus EpochSolver::SolvePosition(const ObservationEpoch& epoch,
+                                          std::vector<SatelliteStatus>* statuses) {
+  model_.FindSatellites(epoch, orbits_, statuses);
+  model_.NoteStrengths(epoch, &weights_);
+  const std::vector<double>& disagreements_m = code_rate_.Update(epoch);
+  std::optional<Eigen::Vector3d> place = last_place_in_ecef_;
+  if (!place) place = CoarsePosition(model_.CoarseRanges(epoch));
+  if (!place) return EstimateStatus::kTooFewSatellites;
+  PointOptions point_options;
+  if (options_.height_memory) point_options.height = height_.At(epoch.time_gps_ns);
+  PointStatus status = PointStatus::kTooFew;
+  for (int pass = 0; pass < 3; ++pass) {
+    model_.Model(epoch, *place, ionosphere_, weights_, disagreements_m, statuses);
+    status =
+        adjustment_.Solve(model_.ranges(), *place, biases_, point_options, &point_, &verdicts_);
+    if (status != PointStatus::kGood) break;
+    const double moved_m = (point_.position_in_ecef - *place).norm();
+    place = point_.position_in_ecef;
+    if (moved_m < kFarFromStart_m) break;
+  }
+  return StatusOf(status);
+}
+
+void EpochSolver::FillPosition(SessionEstimate* estimate) const {
+  estimate->position_in_ecef = point_.position_in_ecef;
+  estimate->position = GeodeticFromEcef(point_.position_in_ecef);
+  estimate->covariance_enu_m2 = point_.covariance_enu_m2;
+  estimate->accuracy_m = RadiusOfProbability(point_.covariance_enu_m2.topLeftCorner<2, 2>(), 0.68);
+  estimate->vertical_accuracy_m = kHalfWidth68 * std::sqrt(point_.covariance_enu_m2(2, 2));
+  estimate->protection_level_m = point_.protection_level_m;
+  estimate->vertical_protection_level_m = point_.vertical_protection_level_m;
+  estimate->clock_bias_m = point_.clock_m;
+  estimate->hdop = point_.hdop;
+  estimate->vdop = point_.vdop;
+  estimate->pdop = point_.pdop;
+  estimate->tdop = point_.tdop;
+  estimate->sources = 1;
+}
+
+void EpochSolver::Judge(SessionEstimate* estimate, std::vector<SatelliteStatus>* statuses) const {
+  DistinctSatellites used;
+  for (std::size_t i = 0; i < model_.used_signals().size(); ++i) {
+    const PreparedSignal& prepared = model_.used_signals()[i];
+    SatelliteStatus& satellite = (*statuses)[prepared.index];
+    satellite.has_residual = true;
+    satellite.residual_m = verdicts_[i].residual_m;
+    satellite.sigma_m = prepared.weight.error.sigma_m;
+    satellite.weight = verdicts_[i].weight;
+    satellite.verdict = VerdictOf(verdicts_[i]);
+    if (verdicts_[i].used && verdicts_[i].observable) used.Add(prepared.satellite_id);
+  }
+  estimate->satellites_used = used.count();
+  // What was merged into another signal of its satellite fares as that does.
+  for (const MergedSignal& merged : model_.merged_signals()) {
+    const SatelliteStatus& whole = (*statuses)[merged.into];
+    SatelliteStatus& part = (*statuses)[merged.index];
+    part.has_residual = whole.has_residual;
+    part.residual_m = whole.residual_m;
+    part.sigma_m = whole.sigma_m;
+    part.weight = whole.weight;
+    part.verdict = whole.verdict;
+  }
+}
+
+void EpochSolver::SolveVelocity(SessionEstimate* estimate, std::vector<SatelliteStatus>* statuses) {
+  if (!AdjustVelocity(model_.rates(), &velocity_, &rate_verdicts_)) return;
+  const Eigen::Matrix3d enu_from_ecef = EnuFromEcefRotation(estimate->position);
+  estimate->has_velocity = true;
+  estimate->velocity_enu_mps = enu_from_ecef * velocity_.velocity_in_ecef_mps;
+  estimate->velocity_covariance_enu_m2ps2 =
+      enu_from_ecef * velocity_.covariance_ecef_m2ps2 * enu_from_ecef.transpose();
+  estimate->speed_accuracy_mps =
+      RadiusOfProbability(estimate->velocity_covariance_enu_m2ps2.topLeftCorner<2, 2>(), 0.68);
+  estimate->clock_drift_mps = velocity_.clock_drift_mps;
+  for (std::size_t i = 0; i < rate_verdicts_.size(); ++i) {
+    SatelliteStatus& satellite = (*statuses)[model_.rate_signals()[i]];
+    satellite.has_rate_residual = true;
+    satellite.range_rate_residual_mps = rate_verdicts_[i].residual_mps;
+  }
+}
+
+void EpochSolver::Learn() {
+  const std::vector<PreparedSignal>& signals = model_.used_signals();
+  if (point_.redundancy > 0) {
+    const double share =
+        static_cast<double>(point_.redundancy) / static_cast<double>(signals.size());
+    redundancy_.assign(signals.size(), share);
+    if (options_.estimate_variance_components) {
+      RedundancyNumbers(model_.ranges(), verdicts_, point_.position_in_ecef, biases_, &redundancy_);
+    }
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+      weights_.Learn(signals[i].clock_group, signals[i].weight, verdicts_[i].residual_m,
+                     redundancy_[i], verdicts_[i].weight, verdicts_[i].late_share);
+    }
+    weights_.FinishEpoch();
+  }
+  if (!options_.learn_biases) return;
+  for (int group = 0; group < kMaxClockGroups; ++group) {
+    if (point_.groups_seen >> group & 1u) {
+      biases_.Set(group, point_.biases[static_cast<std::size_t>(group)]);
+    }
+  }
+}
+
+void EpochSolver::ForgetTime() {
+  code_rate_.Forget();
+  height_.Forget();
+  last_gps_ns_ = 0;
+}
+
+void EpochSolver::Forget() {
+  ForgetTime();
+  model_.Forget();
+  weights_.Forget();
+  biases_.Forget();
+  last_place_in_ecef_.reset();
+}
+
+}  // namespace lodemark

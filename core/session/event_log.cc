@@ -1,0 +1,110 @@
+#include "core/session/event_log.h"
+
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "core/base/units.h"
+
+namespace lodemark {
+namespace {
+
+const char* WhatJumped(MillisecondJump::Kind kind) {
+  using Kind = MillisecondJump::Kind;
+  switch (kind) {
+    case Kind::kTagCodeAndPhase:
+      return "time tag, code and phase";
+    case Kind::kTagAndCode:
+      return "time tag and code";
+    case Kind::kCodeAndPhase:
+      return "code and phase";
+    case Kind::kCode:
+      return "code";
+    case Kind::kPhase:
+      break;
+  }
+  return "phase";
+}
+
+const char* WordOf(EstimateStatus status) {
+  switch (status) {
+    case EstimateStatus::kTooFewSatellites:
+      return "too few satellites";
+    case EstimateStatus::kNoEphemeris:
+      return "no orbits for enough satellites";
+    case EstimateStatus::kNotConverged:
+      return "the geometry fixes no position";
+    case EstimateStatus::kInconsistent:
+      return "the ranges do not agree";
+    case EstimateStatus::kNoData:
+    case EstimateStatus::kFix:
+      break;
+  }
+  return "no measurements";
+}
+
+}  // namespace
+
+void EventLog::SetTime(std::int64_t time_ns, std::int64_t time_gps_ns) {
+  time_ns_ = time_ns;
+  time_gps_ns_ = time_gps_ns;
+}
+
+void EventLog::Add(EventKind kind, double value, std::string text) {
+  if (events_.size() == kMostEvents) events_.erase(events_.begin());
+  events_.push_back({kind, time_ns_, time_gps_ns_, value, std::move(text)});
+}
+
+void EventLog::NoteDiscontinuity() {
+  Add(EventKind::kClockDiscontinuity, 0.0,
+      "the receiver clock is discontinuous; its bias starts anew");
+}
+
+void EventLog::NoteJump(const MillisecondJump& jump) {
+  Add(EventKind::kMillisecondJump, jump.milliseconds,
+      "the receiver clock jumped by " + std::to_string(jump.milliseconds) + " ms in " +
+          WhatJumped(jump.kind) + "; repaired");
+}
+
+void EventLog::NoteTimeBackwards(std::int64_t older_by_ns, bool restart) {
+  const double older_by_s = 1e-9 * static_cast<double>(older_by_ns);
+  char seconds[40];
+  std::snprintf(seconds, sizeof seconds, "%.3f", older_by_s);
+  Add(EventKind::kTimeBackwards, older_by_s,
+      std::string("an epoch ") + seconds + " s older than the last one; " +
+          (restart ? "as others before it, so time goes on from there" : "dropped"));
+}
+
+void EventLog::NoteDuplicate() {
+  Add(EventKind::kDuplicateEpoch, 0.0, "a second epoch of the same time; dropped");
+}
+
+void EventLog::NoteOutcome(const SessionEstimate& estimate) {
+  const bool fix = estimate.status == EstimateStatus::kFix;
+  if (fix && !ever_fixed_) {
+    Add(EventKind::kFirstFix, estimate.satellites_used,
+        "first position, from " + std::to_string(estimate.satellites_used) + " satellites");
+  }
+  if (!fix && fix_before_) {
+    Add(EventKind::kFixLost, estimate.satellites_seen,
+        std::string("no position any more: ") + WordOf(estimate.status));
+  }
+  fix_before_ = fix;
+  ever_fixed_ = ever_fixed_ || fix;
+}
+
+void EventLog::NoteEphemerisMissing(const SatelliteStatus& satellite) {
+  const auto system = static_cast<std::size_t>(satellite.satellite.system);
+  if (system >= without_ephemeris_.size()) return;
+  std::bitset<256>& noted = without_ephemeris_[system];
+  if (noted.test(satellite.satellite.number)) return;
+  noted.set(satellite.satellite.number);
+  const bool too_old = satellite.verdict == SatelliteVerdict::kEphemerisTooOld;
+  Add(EventKind::kEphemerisMissing, satellite.satellite.number,
+      SatelliteName(satellite.satellite) +
+          (too_old ? ": no ephemeris near enough in time" : ": no ephemeris"));
+}
+
+void EventLog::Reset() { *this = EventLog(); }
+
+}  // namespace lodemark

@@ -1,0 +1,50 @@
+// What happened that a user may want to be told, the latest of it.
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/gnss/millisecond_jump.h"
+#include "core/session/session.h"
+
+namespace lodemark {
+
+// Writes the sentences of events. Allocates only when there is one.
+class EventLog {
+ public:
+  static constexpr std::size_t kMostEvents = 256;
+
+  // Time that the events to come are stamped with.
+  void SetTime(std::int64_t time_ns, std::int64_t time_gps_ns);
+
+  void NoteDiscontinuity();
+  void NoteJump(const MillisecondJump& jump);
+  // An epoch older by so much than the last one; a restart is not dropped.
+  void NoteTimeBackwards(std::int64_t older_by_ns, bool restart);
+  void NoteDuplicate();
+  // To be called once an epoch that was not dropped; of it follow first fix and fix lost.
+  void NoteOutcome(const SessionEstimate& estimate);
+  // At most one event per satellite.
+  void NoteEphemerisMissing(const SatelliteStatus& satellite);
+
+  std::span<const SessionEvent> events() const { return events_; }
+  void Clear() { events_.clear(); }
+  // Forgets what was said about fixes and satellites too.
+  void Reset();
+
+ private:
+  void Add(EventKind kind, double value, std::string text);
+
+  std::int64_t time_ns_ = 0;
+  std::int64_t time_gps_ns_ = 0;
+  bool fix_before_ = false;  // at the epoch before
+  bool ever_fixed_ = false;
+  std::array<std::bitset<256>, kSystemCount> without_ephemeris_;
+  std::vector<SessionEvent> events_;
+};
+
+}  // namespace lodemark
