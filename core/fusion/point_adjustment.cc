@@ -30,7 +30,6 @@ constexpr double kAgreementSlack = 0.5;
 // has hardly a lock, the error model can explain everything as late and still be tens of
 // kilometres off; then none of its ranges looks like ordinary noise.
 constexpr double kFewestOrdinary = 2.0;
-constexpr double kOrdinaryWithoutCheck = 0.9;
 
 // Cauchy weights whose width shrinks step by step (graduated non-convexity), late errors held
 // more suspect than early ones.
