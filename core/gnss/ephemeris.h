@@ -14,26 +14,26 @@ namespace lodemark {
 
 // Message a set of parameters came in. QZSS and NavIC use the GPS-like kinds.
 enum class MessageType : std::uint8_t {
-  kLnav,  // GPS, QZSS, NavIC
-  kCnav,  // GPS, QZSS (L2C, L5)
-  kCnav2, // GPS, QZSS (L1C)
-  kInav,  // Galileo E1, E5b
-  kFnav,  // Galileo E5a
-  kD1,    // BeiDou MEO, IGSO
-  kD2,    // BeiDou GEO
-  kCnav1, // BeiDou B1C
-  kCnav2Beidou, // BeiDou B2a
-  kCnav3, // BeiDou B2b
-  kFdma,  // GLONASS
-  kL1Nav, // NavIC L1
+  kLnav,         // GPS, QZSS, NavIC
+  kCnav,         // GPS, QZSS (L2C, L5)
+  kCnav2,        // GPS, QZSS (L1C)
+  kInav,         // Galileo E1, E5b
+  kFnav,         // Galileo E5a
+  kD1,           // BeiDou MEO, IGSO
+  kD2,           // BeiDou GEO
+  kCnav1,        // BeiDou B1C
+  kCnav2Beidou,  // BeiDou B2a
+  kCnav3,        // BeiDou B2b
+  kFdma,         // GLONASS
+  kL1Nav,        // NavIC L1
   kSbas,
 };
 
 // Differential group delays in seconds, present where the message carries them. A signal's
 // correction follows from these by the ICD's rule for that signal.
 struct GroupDelays {
-  std::optional<double> tgd_s;        // GPS, QZSS, NavIC: TGD
-  std::optional<double> isc_l1ca_s;   // GPS, QZSS CNAV
+  std::optional<double> tgd_s;       // GPS, QZSS, NavIC: TGD
+  std::optional<double> isc_l1ca_s;  // GPS, QZSS CNAV
   std::optional<double> isc_l2c_s;
   std::optional<double> isc_l5i5_s;
   std::optional<double> isc_l5q5_s;
@@ -41,9 +41,9 @@ struct GroupDelays {
   std::optional<double> isc_l1cp_s;
   std::optional<double> bgd_e5a_e1_s;  // Galileo
   std::optional<double> bgd_e5b_e1_s;
-  std::optional<double> tgd1_s;        // BeiDou B1I against B3I
-  std::optional<double> tgd2_s;        // BeiDou B2I against B3I
-  std::optional<double> tgd_b1cp_s;    // BeiDou CNAV
+  std::optional<double> tgd1_s;      // BeiDou B1I against B3I
+  std::optional<double> tgd2_s;      // BeiDou B2I against B3I
+  std::optional<double> tgd_b1cp_s;  // BeiDou CNAV
   std::optional<double> tgd_b2ap_s;
   std::optional<double> tgd_b2bi_s;
   std::optional<double> isc_b1cd_s;
@@ -60,10 +60,10 @@ struct KeplerEphemeris {
   std::int64_t transmitted_gps_ns = 0;  // when the message was sent; 0 if unknown
   std::int32_t issue_of_data = 0;       // IODE, IODnav, AODE
   std::int32_t issue_of_clock = 0;
-  std::int32_t health = 0;              // as broadcast; see healthy
-  bool healthy = true;                  // the reader's verdict from the message's own bits
-  double accuracy_m = 0.0;              // URA or SISA as a 1 sigma range, 0 if unknown
-  double fit_interval_s = 0.0;          // 0: the system's usual
+  std::int32_t health = 0;      // as broadcast; see healthy
+  bool healthy = true;          // the reader's verdict from the message's own bits
+  double accuracy_m = 0.0;      // URA or SISA as a 1 sigma range, 0 if unknown
+  double fit_interval_s = 0.0;  // 0: the system's usual
   double clock_bias_s = 0.0;
   double clock_drift_sps = 0.0;
   double clock_drift_rate_sps2 = 0.0;
@@ -99,7 +99,7 @@ struct StateEphemeris {
   bool healthy = true;
   double age_days = 0.0;
   double accuracy_m = 0.0;
-  double clock_bias_s = 0.0;  // satellite clock minus system time (RINEX: -TauN)
+  double clock_bias_s = 0.0;    // satellite clock minus system time (RINEX: -TauN)
   double frequency_bias = 0.0;  // relative, +GammaN
   double l2_delay_s = 0.0;      // L2 minus L1 (delta tau N), 0 if unknown
   Eigen::Vector3d position_in_ecef = Eigen::Vector3d::Zero();
@@ -125,7 +125,7 @@ struct BdgimParameters {
 };
 
 struct IonosphereMessage {
-  SatelliteId satellite;              // sender; number 0: the whole system
+  SatelliteId satellite;                // sender; number 0: the whole system
   std::int64_t transmitted_gps_ns = 0;  // 0 if unknown
   std::variant<KlobucharParameters, GalileoIonosphereParameters, BdgimParameters> model;
 };

@@ -25,7 +25,7 @@ enum class MessageVerdict : std::uint8_t {
   kUnknownType,
   kUnknownSatellite,
   kUnknownTime,  // the time of reception is before 1980 or after 2100
-  kMalformed,  // too short, or not beginning as the message must
+  kMalformed,    // too short, or not beginning as the message must
   kBadParity,
   kUnused,  // sound, and of a kind that is not needed here
 };

@@ -45,7 +45,7 @@ struct SignalObservation {
   double cn0_dbhz = 0.0;              // at the antenna
   double baseband_cn0_dbhz = 0.0;
   double agc_db = 0.0;
-  double pseudorange_sigma_m = 0.0;   // as the receiver states it
+  double pseudorange_sigma_m = 0.0;  // as the receiver states it
   double carrier_phase_sigma_m = 0.0;
   double range_rate_sigma_mps = 0.0;
 
@@ -54,7 +54,7 @@ struct SignalObservation {
 
 // All signals measured at one instant of the receiver clock.
 struct ObservationEpoch {
-  std::int64_t time_gps_ns = 0;  // the receiver's reading, the tag the pseudoranges refer to
+  std::int64_t time_gps_ns = 0;   // the receiver's reading, the tag the pseudoranges refer to
   double time_fraction_ns = 0.0;  // to be added to time_gps_ns
   std::int64_t boot_time_ns = 0;  // since boot, 0 if unknown
   // The receiver clock was reset or steered since the epoch before: its bias may have jumped.
