@@ -94,8 +94,8 @@ void PrintRemarks(const std::vector<ComparedRun>& runs, const Truth& truth) {
                    " malformed rows of trajectory.csv skipped");
     }
     if (run.epochs_without_truth > 0) {
-      PrintMessage(run.path + ": " + GroupDigits(run.epochs_without_truth) +
-                   " epochs have no truth near them and do not count");
+      PrintMessage(run.path + ": " + Counted(run.epochs_without_truth, "epoch") +
+                   " without truth do not count");
     }
   }
 }

@@ -16,7 +16,8 @@ struct Truth {
   ReadReport report;
   std::string file;
 
-  // As Trajectory::At. A place at rest has no velocity but zero.
+  // As Trajectory::At, but up to 5 ms beyond its ends the nearest point holds. A place at rest has
+  // no velocity but zero.
   std::optional<TrajectoryPoint> At(std::int64_t time_gps_ns) const;
 };
 

@@ -40,6 +40,16 @@ TEST(Truth, OfSeveralPointsKnowsNoVelocityThatTheFileLacks) {
   EXPECT_FALSE(point->velocity_enu_mps[0].has_value());
 }
 
+TEST(Truth, ReachesFiveMillisecondsBeyondItsEnds) {
+  const Truth truth = TruthOf({PointAt(0, 30.0, 114.0), PointAt(1, 31.0, 114.0)});
+  const auto after = truth.At(kStart_ns + kSecond + 4'900'000);
+  ASSERT_TRUE(after.has_value());
+  EXPECT_EQ(after->latitude_deg, 31.0);
+  EXPECT_TRUE(truth.At(kStart_ns - 4'900'000).has_value());
+  EXPECT_FALSE(truth.At(kStart_ns + kSecond + 5'100'000).has_value());
+  EXPECT_FALSE(truth.At(kStart_ns - 5'100'000).has_value());
+}
+
 RunFolder RunWith(std::vector<TrajectoryPoint> epochs) {
   RunFolder run;
   run.path = "run";

@@ -72,7 +72,12 @@ function timeTicks(high, count) {
   for (let v = 0; v <= high + 1e-6; v += step) values.push(v);
   return values;
 }
-const number = value => { const text = Math.abs(value) < 10 && value % 1 !== 0 ? value.toFixed(value % 0.1 > 1e-9 && Math.abs(value) < 1 ? 2 : 1) : String(Math.round(value)); return text.replace('-', '−'); };
+// Texts for ticks: all with the decimals that their step needs.
+function labels(values) {
+  const step = values.length > 1 ? values[1] - values[0] : 1;
+  const decimals = step < 1 ? Math.ceil(-Math.log10(step) - 1e-9) : 0;
+  return values.map(value => value.toFixed(decimals).replace('-', '−'));
+}
 function quantile(values, share) {
   const sorted = values.filter(Number.isFinite).sort((a, b) => a - b);
   return sorted.length ? sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] : NaN;

@@ -59,7 +59,7 @@ function drawStrength(chosen) {
     const low = Math.min(15, Math.floor((quantile(all, 0.002) || 15) / 5) * 5), high = Math.max(50, Math.ceil((quantile(all, 0.999) || 50) / 5) * 5);
     const x = t => left + t / span * (width - left - right), y = v => height - bottom - (v - low) / (high - low) * (height - top - bottom);
     const root = svg('svg', {viewBox: `0 0 ${width} ${height}`, height, tabindex: 0, role: 'img', 'aria-label': 'Carrier to noise density of every signal over time'});
-    for (const v of ticks(low, high, height / 50)) root.append(svg('path', {class: 'grid', d: `M${left} ${y(v).toFixed(1)}H${width - right}`}), svg('text', {x: left - 6, y: y(v) + 4, 'text-anchor': 'end'}, number(v)));
+    for (const v of ticks(low, high, height / 50)) root.append(svg('path', {class: 'grid', d: `M${left} ${y(v).toFixed(1)}H${width - right}`}), svg('text', {x: left - 6, y: y(v) + 4, 'text-anchor': 'end'}, String(v)));
     for (const t of timeTicks(span, Math.max(3, width / 110))) root.append(svg('text', {x: x(t), y: height - 7, 'text-anchor': 'middle'}, clock(t)));
     const systems = new Set();
     run.signals.forEach((signal, index) => {

@@ -40,9 +40,10 @@ function drawPanel(panel, top, tall, width, left, right, x, runs, values) {
   const y = v => top + tall / 2 - Math.max(-1.05, Math.min(1.05, v / limit)) * tall / 2;
   const id = `clip${panel.label}`;
   group.append(svg('clipPath', {id}, svg('rect', {x: left, y: top, width: Math.max(1, width - left - right), height: tall})));
-  for (const v of ticks(-limit, limit, tall / 32)) {
+  const steps = ticks(-limit, limit, tall / 32), texts = labels(steps);
+  for (const [i, v] of steps.entries()) {
     group.append(svg('path', {class: v === 0 ? 'zero' : 'grid', d: `M${left} ${y(v).toFixed(1)}H${width - right}`}));
-    group.append(svg('text', {x: left - 6, y: y(v) + 4, 'text-anchor': 'end'}, number(v)));
+    group.append(svg('text', {x: left - 6, y: y(v) + 4, 'text-anchor': 'end'}, texts[i]));
   }
   const plot = svg('g', {'clip-path': `url(#${id})`});
   for (const run of runs) {
@@ -113,8 +114,9 @@ function drawDistribution() {
       root.append(svg('path', {class: 'grid', d: `M${left} ${y(share).toFixed(1)}H${width - right}`}));
       if (share !== 1) root.append(svg('text', {x: left - 6, y: y(share) + 4, 'text-anchor': 'end'}, `${Math.round(share * 100)} %`));
     }
-    for (const v of ticks(0, limit, Math.max(3, width / 80))) {
-      root.append(svg('path', {class: 'grid', d: `M${x(v).toFixed(1)} ${top}V${height - bottom}`}), svg('text', {x: x(v), y: height - bottom + 17, 'text-anchor': 'middle'}, number(v)));
+    const steps = ticks(0, limit, Math.max(3, width / 80)), texts = labels(steps);
+    for (const [i, v] of steps.entries()) {
+      root.append(svg('path', {class: 'grid', d: `M${x(v).toFixed(1)} ${top}V${height - bottom}`}), svg('text', {x: x(v), y: height - bottom + 17, 'text-anchor': 'middle'}, texts[i]));
     }
     root.append(svg('text', {x: (left + width - right) / 2, y: height - 4, 'text-anchor': 'middle'}, 'horizontal error, m'));
     for (const run of runs) {
