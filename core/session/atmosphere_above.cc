@@ -32,7 +32,7 @@ AtmosphereAbove::AtmosphereAbove(const SessionOptions& options, const Ionosphere
       place_in_ecef_(place_in_ecef),
       time_gps_ns_(time_gps_ns),
       ionosphere_kind_(KindOf(options.ionosphere)) {
-  if (options.troposphere == TroposphereChoice::kNone) return;
+  if (options.troposphere == TroposphereChoice::kNone && !options.estimate_zenith_delay) return;
   troposphere_ = Troposphere(place, time_gps_ns);
   if (options.troposphere == TroposphereChoice::kHopfield) {
     hopfield_ = HopfieldZenithDelay(ClimatologicalMeteorology(place, time_gps_ns));
@@ -46,6 +46,9 @@ AtmosphereDelays AtmosphereAbove::At(const Eigen::Vector3d& satellite_in_ecef,
     delays.ionosphere_m =
         ionosphere_.Delay(place_, place_in_ecef_, satellite_in_ecef, look, time_gps_ns_,
                           frequency_hz, &delays.ionosphere_sigma_m, ionosphere_kind_);
+  }
+  if (options_.estimate_zenith_delay) {
+    delays.wet_mapping = troposphere_.Mapping(look.elevation_rad).wet;
   }
   if (options_.troposphere == TroposphereChoice::kNone) return delays;
   delays.troposphere_m = troposphere_.Delay(look.elevation_rad, &delays.troposphere_sigma_m);

@@ -17,6 +17,7 @@ struct AtmosphereDelays {
   double ionosphere_sigma_m = 0.0;
   double troposphere_m = 0.0;
   double troposphere_sigma_m = 0.0;
+  double wet_mapping = 0.0;  // slant per zenith delay
 };
 
 // Refers to its arguments: it lives no longer than the epoch.

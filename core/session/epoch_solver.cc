@@ -21,6 +21,10 @@ constexpr double kHalfWidth68 = 0.99446;
 // Satellites that a position takes at least, with a height known from elsewhere or not.
 constexpr int kFewestSatellites = 4;
 
+// What a tropospheric model leaves in the zenith at worst, and what there is without one.
+constexpr double kZenithDelaySigma_m = 0.2;
+constexpr double kWholeZenithDelay_m = 2.5;
+
 EstimateStatus StatusOf(PointStatus status) {
   switch (status) {
     case PointStatus::kGood:
@@ -98,6 +102,11 @@ EstimateStatus EpochSolver::SolvePosition(const ObservationEpoch& epoch,
   if (!place) return EstimateStatus::kTooFewSatellites;
   PointOptions point_options;
   if (options_.height_memory) point_options.height = height_.At(epoch.time_gps_ns);
+  if (options_.estimate_zenith_delay) {
+    point_options.zenith_delay_sigma_m = options_.troposphere == TroposphereChoice::kNone
+                                             ? kWholeZenithDelay_m
+                                             : kZenithDelaySigma_m;
+  }
   PointStatus status = PointStatus::kTooFew;
   for (int pass = 0; pass < 3; ++pass) {
     model_.Model(epoch, *place, ionosphere_, weights_, disagreements_m, statuses);

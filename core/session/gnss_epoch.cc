@@ -209,6 +209,7 @@ void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d&
     range.range_m = signal.pseudorange_m + kSpeedOfLight_mps * prepared.satellite.clock_bias_s -
                     prepared.ionosphere_m - prepared.troposphere_m;
     range.clock_group = prepared.clock_group;
+    range.zenith_delay_factor = air.wet_mapping;
     SignalQuality quality = QualityOf(signal, prepared, ionosphere_share);
     quality.rate_disagreement_m = rate_disagreements_m[prepared.index];
     prepared.weight = weights.ErrorModel(prepared.clock_group, quality);

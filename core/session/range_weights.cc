@@ -17,6 +17,10 @@ constexpr double kUsualCn0_dbhz = 40.0;  // of a receiver that reports none
 // Codes of ten times the C/A rate see that much less of both.
 constexpr double kWidebandShare = 0.35;
 
+// Receivers state what their loops do, at times with much caution: this share of it is believed
+// where it is more than what the strength says.
+constexpr double kReportedShare = 0.5;
+
 // A surveying receiver's antenna and correlators: share of the variance, and of the odds that a
 // weak signal, weak for its low elevation, came by a longer way.
 constexpr double kSurveyNoiseShare = 0.05;
@@ -101,6 +105,8 @@ WeightedModel RangeWeights::ErrorModel(int clock_group, const SignalQuality& qua
       share * share * (surveying_ ? kSurveyNoiseShare : 1.0) *
       (kMultipath_m * kMultipath_m + thermal_m * thermal_m) *
       (1.0 - kElevationShare + kElevationShare * Obliquity(quality.elevation_rad));
+  const double reported_m = kReportedShare * quality.reported_sigma_m;
+  model.noise_variance_m2 = std::max(model.noise_variance_m2, reported_m * reported_m);
   model.other_variance_m2 =
       quality.model_sigma_m * quality.model_sigma_m +
       kDisagreementShare * quality.rate_disagreement_m * quality.rate_disagreement_m;

@@ -195,6 +195,7 @@ bool Session::ProcessNext() {
   Impl::QueuedEpoch* queued = &s.ring[s.first];
   s.first = (s.first + 1) % s.ring.size();
   --s.count;
+  if (s.count == 0) s.first = 0;  // the same few slots again and again
   s.estimate = SessionEstimate();
   s.estimate.time_ns = queued->time_ns;
   s.estimate.time_gps_ns = queued->epoch.time_gps_ns;

@@ -12,6 +12,7 @@
 
 #include "core/base/units.h"
 #include "core/geo/geodetic.h"
+#include "core/gnss/android_measurement.h"
 #include "core/gnss/broadcast_orbit.h"
 #include "core/gnss/ephemeris.h"
 #include "core/gnss/observation.h"
@@ -133,6 +134,33 @@ class SessionScene {
       epoch.signals.push_back(signal);
     }
     return epoch;
+  }
+
+  // The same as a phone reports it, to the nanosecond. GPS and Galileo only.
+  AndroidEpoch Raw(double seconds) const { return Raw(Epoch(seconds)); }
+  AndroidEpoch Raw(const ObservationEpoch& epoch) const {
+    AndroidEpoch raw;
+    raw.clock.time_ns = 5 * kSecond_ns + (epoch.time_gps_ns - kSceneStart_ns);
+    raw.clock.full_bias_ns = raw.clock.time_ns - epoch.time_gps_ns;
+    raw.clock.present = kClockHasFullBias;
+    for (const SignalObservation& signal : epoch.signals) {
+      AndroidMeasurement measurement;
+      measurement.svid = signal.satellite.number;
+      measurement.constellation_type = signal.satellite.system == System::kGps ? 1 : 6;
+      measurement.state = 1 | 2 | 4 | 8;  // code, bit and subframe lock, time of week decoded
+      const auto travel_ns =
+          static_cast<std::int64_t>(std::round(signal.pseudorange_m / kSpeedOfLight_mps * 1e9));
+      measurement.received_sv_time_ns = (epoch.time_gps_ns - travel_ns) % kWeek_ns;
+      measurement.received_sv_time_uncertainty_ns = 10;
+      measurement.pseudorange_rate_mps =
+          -signal.doppler_hz * kSpeedOfLight_mps / signal.frequency_hz;
+      measurement.pseudorange_rate_uncertainty_mps = 0.1;
+      measurement.cn0_dbhz = signal.cn0_dbhz;
+      measurement.present = kMeasurementHasReceivedTimeUncertainty | kMeasurementHasRangeRate |
+                            kMeasurementHasRangeRateUncertainty | kMeasurementHasCn0;
+      raw.measurements.push_back(measurement);
+    }
+    return raw;
   }
 
   SessionOptions options;
