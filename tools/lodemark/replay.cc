@@ -38,16 +38,12 @@ std::string JsonText(const ordered_json& json) {
 }
 
 Status PushOrbits(const ReplayInputs& inputs, ReplaySession* session, Remarks* remarks) {
-  const auto push = [&](const std::string& path, auto method) -> Status {
+  const auto push = [&](const std::string& path, auto method, const char* wanted) -> Status {
     const Result<std::string> content = ReadFileWhole(path, kLargestOrbitFile_bytes);
-    if (!content) return content.error();
+    if (!content) return WithAdvice(content.error(), wanted);
     lodemark_read_report report;
     const Status pushed = (session->*method)(path, *content, &report);
-    if (!pushed.ok()) {
-      Error error = pushed.error();
-      if (error.code == ErrorCode::kUnsupported) error.code = ErrorCode::kBadData;
-      return error;
-    }
+    if (!pushed.ok()) return WithAdvice(pushed.error(), wanted);
     if (report.rows_skipped > 0) {
       remarks->Add(path + ": " + GroupDigits(report.rows_skipped) +
                    " malformed records skipped, the first: " + report.first_problem);
@@ -55,11 +51,11 @@ Status PushOrbits(const ReplayInputs& inputs, ReplaySession* session, Remarks* r
     return {};
   };
   for (const std::string& path : inputs.navigation) {
-    const Status pushed = push(path, &ReplaySession::PushNavigation);
+    const Status pushed = push(path, &ReplaySession::PushNavigation, "a RINEX navigation file");
     if (!pushed.ok()) return pushed;
   }
   for (const std::string& path : inputs.precise_orbits) {
-    const Status pushed = push(path, &ReplaySession::PushPreciseOrbits);
+    const Status pushed = push(path, &ReplaySession::PushPreciseOrbits, "an SP3 file");
     if (!pushed.ok()) return pushed;
   }
   return {};
@@ -127,7 +123,7 @@ ordered_json SummaryJson(const ReplayInputs& inputs, const MeasurementSource& so
                           {"rows_skipped", report.rows_skipped},
                           {"rows_unknown", report.rows_unknown},
                           {"values_dropped", report.values_dropped},
-                          {"epochs_without_time_or_dropped", summary.dropped()},
+                          {"epochs_dropped", summary.dropped()},
                           {"epochs_refused", counts.epochs_refused},
                           {"unknown_constellation", counts.unknown_constellation},
                           {"broadcast_messages_taken", counts.broadcast_taken},
@@ -137,17 +133,6 @@ ordered_json SummaryJson(const ReplayInputs& inputs, const MeasurementSource& so
       {"ms_per_epoch",
        summary.epochs() > 0 ? 1e3 * elapsed_s / static_cast<double>(summary.epochs()) : 0.0}};
   return json;
-}
-
-// The session's word that the epoch it just took was not used at all.
-bool WasDropped(std::span<const lodemark_event> events) {
-  for (const lodemark_event& event : events) {
-    if (event.kind == LODEMARK_EVENT_TIME_BACKWARDS ||
-        event.kind == LODEMARK_EVENT_DUPLICATE_EPOCH) {
-      return true;
-    }
-  }
-  return false;
 }
 
 Status ReplayAll(MeasurementSource* source, ReplaySession* session, RunWriter* writer,
@@ -161,7 +146,8 @@ Status ReplayAll(MeasurementSource* source, ReplaySession* session, RunWriter* w
       writer->WriteEvents(session->events());
       summary->AddEvents(session->events());
       const lodemark_estimate& estimate = session->estimate();
-      if (WasDropped(session->events()) ||
+      // An epoch dropped for its time has no outcome, and a row needs a time.
+      if (estimate.outcome == LODEMARK_OUTCOME_NO_DATA ||
           (estimate.present & LODEMARK_ESTIMATE_HAS_GPS_TIME) == 0) {
         summary->AddDroppedEpoch();
         continue;
@@ -198,8 +184,8 @@ void AddRemarks(const ReplayInputs& inputs, const MeasurementSource& source,
     return found != events.end() ? found->second : 0;
   };
   if (const std::int64_t count = count_of("time_backwards"); count > 0) {
-    remarks->Add(file + ": time runs backwards; " + GroupDigits(count) +
-                 " epochs older than the one before left out");
+    remarks->Add(file + ": time runs backwards " + GroupDigits(count) +
+                 " times; epochs older than the one before are left out until it goes on");
   }
   if (const std::int64_t count = count_of("duplicate_epoch"); count > 0) {
     remarks->Add(file + ": " + GroupDigits(count) +

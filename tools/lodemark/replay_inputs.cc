@@ -52,7 +52,7 @@ Result<FileKind> KindOf(const std::string& path, FileKind otherwise) {
 
 Status CheckKind(const std::string& path, FileKind expected, const char* option) {
   const Result<FileKind> kind = KindOf(path, expected);
-  if (!kind) return kind.error();
+  if (!kind) return WithAdvice(kind.error(), UseOf(expected).name);
   const KindUse use = UseOf(*kind);
   if (use.option != nullptr && std::string_view(use.option) == option) return {};
   return Error{ErrorCode::kBadData,
@@ -79,14 +79,14 @@ Status FromFolder(const std::string& folder, ReplayInputs* inputs) {
   std::error_code ignored;
   if (fs::is_regular_file(folder, ignored)) {
     const Result<FileKind> kind = SniffFile(folder);
-    if (!kind) return kind.error();
+    if (!kind) return WithAdvice(kind.error(), "a recording folder");
     const char* option = UseOf(*kind).option;
     return Error{ErrorCode::kBadData, folder + ": is a file and no recording folder; " +
                                           (option != nullptr ? std::string("name it with ") + option
                                                              : std::string("name its folder"))};
   }
   const Result<Recording> recording = OpenRecording(folder);
-  if (!recording) return recording.error();
+  if (!recording) return WithAdvice(recording.error(), "a recording folder");
   inputs->name = recording->name;
   inputs->remarks = recording->problems;
   inputs->navigation = recording->Files("navigation");
@@ -118,6 +118,22 @@ Status FromFolder(const std::string& folder, ReplayInputs* inputs) {
 }
 
 }  // namespace
+
+Error WithAdvice(Error error, const std::string& wanted) {
+  if (error.message.find("; ") != std::string::npos) return error;
+  // What this version cannot read is the file's fault here, not the command line's.
+  if (error.code == ErrorCode::kUnsupported) error.code = ErrorCode::kBadData;
+  if (error.code == ErrorCode::kIo) error.message += "; check its name and permissions";
+  if (error.code == ErrorCode::kBadData) error.message += "; name " + wanted;
+  return error;
+}
+
+std::string WantedMeasurements(Kind kind) {
+  return UseOf(kind == Kind::kObservation ? FileKind::kRinexObservation
+               : kind == Kind::kKaggle    ? FileKind::kDeviceGnss
+                                          : FileKind::kGnssLog)
+      .name;
+}
 
 Result<ReplayInputs> FindReplayInputs(const ReplayRequest& request) {
   ReplayInputs inputs;

@@ -32,4 +32,10 @@ struct ReplayInputs {
 // Looks into the files' first lines only. Errors name the file and say what to do.
 Result<ReplayInputs> FindReplayInputs(const ReplayRequest& request);
 
+// The error with a word on what to do, unless it has one: wanted is what should have been named.
+Error WithAdvice(Error error, const std::string& wanted);
+
+// What should have been named as the measurements.
+std::string WantedMeasurements(ReplayInputs::Measurements kind);
+
 }  // namespace lodemark

@@ -142,13 +142,9 @@ class ObservationSource final : public MeasurementSource {
 };
 
 template <typename Source, typename Reader>
-Result<std::unique_ptr<MeasurementSource>> SourceOf(Result<Reader> reader) {
-  if (!reader) {
-    Error error = reader.error();
-    // What this version cannot read is the file's fault here, not the command line's.
-    if (error.code == ErrorCode::kUnsupported) error.code = ErrorCode::kBadData;
-    return error;
-  }
+Result<std::unique_ptr<MeasurementSource>> SourceOf(Result<Reader> reader,
+                                                    ReplayInputs::Measurements kind) {
+  if (!reader) return WithAdvice(reader.error(), WantedMeasurements(kind));
   return std::unique_ptr<MeasurementSource>(std::make_unique<Source>(std::move(reader).value()));
 }
 
@@ -165,13 +161,14 @@ void MeasurementSource::Count(const Status& pushed) {
 Result<std::unique_ptr<MeasurementSource>> OpenMeasurements(const ReplayInputs& inputs) {
   switch (inputs.kind) {
     case ReplayInputs::Measurements::kObservation:
-      return SourceOf<ObservationSource>(RinexObservationReader::Open(inputs.measurements));
+      return SourceOf<ObservationSource>(RinexObservationReader::Open(inputs.measurements),
+                                         inputs.kind);
     case ReplayInputs::Measurements::kKaggle:
-      return SourceOf<KaggleSource>(KaggleGnssReader::Open(inputs.measurements));
+      return SourceOf<KaggleSource>(KaggleGnssReader::Open(inputs.measurements), inputs.kind);
     case ReplayInputs::Measurements::kGnssLog:
       break;
   }
-  return SourceOf<GnssLogSource>(GnssLoggerReader::Open(inputs.measurements));
+  return SourceOf<GnssLogSource>(GnssLoggerReader::Open(inputs.measurements), inputs.kind);
 }
 
 }  // namespace lodemark

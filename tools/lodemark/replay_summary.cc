@@ -66,11 +66,12 @@ void ReplaySummary::AddEpoch(const lodemark_estimate& estimate,
   ++epochs_;
   if (first_gps_ns_) {
     intervals_s_.push_back(
-        static_cast<float>(1e-9 * static_cast<double>(estimate.time_gps_ns - last_gps_ns_)));
-  } else {
-    first_gps_ns_ = estimate.time_gps_ns;
+        static_cast<float>(1e-9 * static_cast<double>(estimate.time_gps_ns - before_gps_ns_)));
   }
-  last_gps_ns_ = estimate.time_gps_ns;
+  before_gps_ns_ = estimate.time_gps_ns;
+  // A receiver may go on at an earlier time.
+  first_gps_ns_ = std::min(first_gps_ns_.value_or(before_gps_ns_), before_gps_ns_);
+  last_gps_ns_ = std::max(last_gps_ns_, before_gps_ns_);
   satellites_seen_ += estimate.satellites_seen;
   CountAt(estimate.outcome, &outcomes_);
   if ((estimate.present & LODEMARK_ESTIMATE_HAS_POSITION) != 0) {

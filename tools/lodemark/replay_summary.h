@@ -62,6 +62,7 @@ class ReplaySummary {
   std::int64_t satellites_seen_ = 0;
   std::optional<std::int64_t> first_gps_ns_;
   std::int64_t last_gps_ns_ = 0;
+  std::int64_t before_gps_ns_ = 0;
   std::vector<float> intervals_s_;
   std::vector<float> accuracies_m_;
   std::vector<float> vertical_accuracies_m_;
