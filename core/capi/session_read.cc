@@ -109,7 +109,7 @@ lodemark_satellite ToC(const SatelliteStatus& from) {
   to.system = static_cast<std::int32_t>(from.satellite.system);
   to.satellite = from.satellite.number;
   to.verdict = static_cast<std::int32_t>(from.verdict);
-  to.signal[0] = from.signal.band;
+  if (from.signal.band != ' ') to.signal[0] = from.signal.band;
   if (from.signal.attribute != ' ') to.signal[1] = from.signal.attribute;
   to.weight = from.weight;
   if (from.has_residual) {

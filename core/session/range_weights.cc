@@ -111,10 +111,7 @@ WeightedModel RangeWeights::ErrorModel(int clock_group, const SignalQuality& qua
       quality.model_sigma_m * quality.model_sigma_m +
       kDisagreementShare * quality.rate_disagreement_m * quality.rate_disagreement_m;
   model.elevation_rad = quality.elevation_rad;
-  if (by_elevation_) {
-    model.noise_variance_m2 = ElevationVariance(quality.elevation_rad);
-    model.other_variance_m2 = 0.0;
-  }
+  if (by_elevation_) model.noise_variance_m2 = ElevationVariance(quality.elevation_rad);
   model.error.sigma_m =
       std::sqrt(NoiseFactor(clock_group) * model.noise_variance_m2 + model.other_variance_m2);
 
@@ -140,7 +137,7 @@ WeightedModel RangeWeights::Combined(int clock_group, const WeightedModel& first
   WeightedModel model = first;
   model.noise_variance_m2 =
       share * (factor * factor * first.noise_variance_m2 + second.noise_variance_m2);
-  model.other_variance_m2 = by_elevation_ ? 0.0 : own_variance_m2;
+  model.other_variance_m2 = own_variance_m2;
   model.amplification = share * (factor * factor + 1.0);
   model.error.sigma_m =
       std::sqrt(NoiseFactor(clock_group) * model.noise_variance_m2 + model.other_variance_m2);
@@ -154,8 +151,9 @@ void RangeWeights::Learn(int clock_group, const WeightedModel& model, double res
   group.squares += core_share * u * u * NoiseFactor(clock_group);
   group.count += core_share * redundancy_share;
   if (learn_law_) {
-    components_.Add(Obliquity(model.elevation_rad),
-                    core_share * residual_m * residual_m / model.amplification,
+    // What the models leave is in the residual too.
+    const double noise_m2 = residual_m * residual_m - redundancy_share * model.other_variance_m2;
+    components_.Add(Obliquity(model.elevation_rad), core_share * noise_m2 / model.amplification,
                     core_share * redundancy_share);
   }
   late_found_ += late_share;

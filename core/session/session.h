@@ -29,7 +29,7 @@ enum class IonosphereChoice : std::uint8_t {
 enum class TroposphereChoice : std::uint8_t { kSaastamoinen, kHopfield, kNone };
 enum class WeightChoice : std::uint8_t {
   kSignal,     // C/N0, elevation and the reported uncertainty, with a scale learned per signal
-  kElevation,  // a^2 + b^2 / sin^2(elevation), Xu et al. equation 8
+  kElevation,  // a^2 + b^2 / sin^2(elevation), Xu et al. equation 8, in place of the signal's noise
 };
 enum class TimeBase : std::uint8_t { kBoot, kGps };
 

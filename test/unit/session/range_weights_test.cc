@@ -124,7 +124,9 @@ TEST(RangeWeights, EstimateTheElevationLawWhenAsked) {
       SignalQuality quality = Strong();
       const double s = sine(random);
       quality.elevation_rad = std::asin(s);
-      const double residual_m = std::sqrt(0.6 * (1.0 + 0.25 / (s * s))) * normal(random);
+      quality.model_sigma_m = 0.8;
+      const double variance_m2 = 0.64 + 1.0 + 0.25 / (s * s);
+      const double residual_m = std::sqrt(0.6 * variance_m2) * normal(random);
       weights.Learn(0, weights.ErrorModel(0, quality), residual_m, 0.6, 1.0, 0.0);
       stated.Learn(0, stated.ErrorModel(0, quality), residual_m, 0.6, 1.0, 0.0);
     }
