@@ -10,7 +10,8 @@
 namespace lodemark {
 namespace {
 
-// Ranges in doubt, in sum of probabilities, below which mode and mean are one.
+// Ranges in doubt, in sum of probabilities, below which mode and mean are one. Where a range is as
+// good as certainly a gross error, none of the places in question explains it: it weighs them alike.
 constexpr double kDoubtful = 0.5;
 
 // Reflections last and come in families, so an epoch with many tells less than independent errors
@@ -185,7 +186,9 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
 
   double doubtful = 0.0;
   for (const PointProblem::Row& row : problem.rows()) {
-    doubtful += 1.0 - EvaluateRangeError(row.error, problem.Residual(row)).core_share;
+    const RangeErrorTerms terms = EvaluateRangeError(row.error, problem.Residual(row));
+    const double gross_share = 1.0 - terms.core_share - terms.late_share;
+    doubtful += 1.0 - std::max(terms.core_share, gross_share);
   }
   if (options.posterior_mean && redundancy > 0 && problem.clocks() > 0 && doubtful > kDoubtful) {
     if (!sampling_) sampling_.emplace(options.posterior_samples);
