@@ -1,5 +1,6 @@
 #include "core/adjustment/distributions.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -7,6 +8,7 @@ namespace lodemark {
 namespace {
 
 constexpr double kInverseSqrtTwo = 0.7071067811865476;
+constexpr double kInverseSqrtTwoPi = 0.3989422804014327;
 
 // Logarithm of the gamma function for x > 0 (Lanczos; std::lgamma writes a global).
 double LogGamma(double x) {
@@ -25,11 +27,12 @@ double LogGamma(double x) {
 double GammaP(double a, double x) {
   if (!(x > 0.0)) return 0.0;
   const double front = std::exp(a * std::log(x) - x - LogGamma(a));
-  constexpr int kTerms = 1000;
+  // Terms of the series fall like a normal density whose sigma is the root of a.
+  const int terms = 1000 + static_cast<int>(10.0 * std::sqrt(std::min(a, 1e8)));
   if (x < a + 1.0) {
     double term = 1.0 / a;
     double sum = term;
-    for (int n = 1; n < kTerms && term > sum * 1e-16; ++n) {
+    for (int n = 1; n < terms && term > sum * 1e-16; ++n) {
       term *= x / (a + n);
       sum += term;
     }
@@ -41,7 +44,7 @@ double GammaP(double a, double x) {
   double c = 1.0 / kTiny;
   double d = 1.0 / b;
   double fraction = d;
-  for (int n = 1; n < kTerms; ++n) {
+  for (int n = 1; n < terms; ++n) {
     const double an = -n * (n - a);
     b += 2.0;
     d = an * d + b;
@@ -75,7 +78,17 @@ double NormalQuantile(double probability) {
   if (!(probability < 1.0)) return std::numeric_limits<double>::infinity();
   // The lower half keeps its relative precision in the tail.
   if (probability > 0.5) return -NormalQuantile(1.0 - probability);
-  return Bisect(-40.0, 0.0, [&](double x) { return NormalCdf(x) - probability; });
+  // Abramowitz and Stegun 26.2.23, good to 4.5e-4, then Newton's steps.
+  const double t = std::sqrt(-2.0 * std::log(probability));
+  double x = (2.515517 + t * (0.802853 + t * 0.010328)) /
+                 (1.0 + t * (1.432788 + t * (0.189269 + t * 0.001308))) -
+             t;
+  for (int i = 0; i < 3; ++i) {
+    const double density = kInverseSqrtTwoPi * std::exp(-0.5 * x * x);
+    if (!(density > 0.0)) break;
+    x -= (NormalCdf(x) - probability) / density;
+  }
+  return x;
 }
 
 double ChiSquareCdf(double x, double degrees_of_freedom) {
