@@ -15,6 +15,11 @@ namespace {
 
 constexpr double kFarFromStart_m = 1000.0;
 
+// What the errors of orbits, clocks and atmosphere have in common moves a position whatever the
+// residuals say: 1 sigma a horizontal axis, and of the height.
+constexpr double kCommonHorizontal_m = 0.5;
+constexpr double kCommonVertical_m = 1.0;
+
 // Half-width of a normal error that holds 68 % of it, in sigmas.
 constexpr double kHalfWidth68 = 0.99446;
 
@@ -124,10 +129,14 @@ void EpochSolver::FillPosition(SessionEstimate* estimate) const {
   estimate->position_in_ecef = point_.position_in_ecef;
   estimate->position = GeodeticFromEcef(point_.position_in_ecef);
   estimate->covariance_enu_m2 = point_.covariance_enu_m2;
-  estimate->accuracy_m = RadiusOfProbability(point_.covariance_enu_m2.topLeftCorner<2, 2>(), 0.68);
-  estimate->vertical_accuracy_m = kHalfWidth68 * std::sqrt(point_.covariance_enu_m2(2, 2));
-  estimate->protection_level_m = point_.protection_level_m;
-  estimate->vertical_protection_level_m = point_.vertical_protection_level_m;
+  estimate->covariance_enu_m2.diagonal() += Eigen::Vector3d(
+      kCommonHorizontal_m * kCommonHorizontal_m, kCommonHorizontal_m * kCommonHorizontal_m,
+      kCommonVertical_m * kCommonVertical_m);
+  estimate->accuracy_m =
+      RadiusOfProbability(estimate->covariance_enu_m2.topLeftCorner<2, 2>(), 0.68);
+  estimate->vertical_accuracy_m = kHalfWidth68 * std::sqrt(estimate->covariance_enu_m2(2, 2));
+  estimate->protection_level_m = point_.protection_level_m + kCommonHorizontal_m;
+  estimate->vertical_protection_level_m = point_.vertical_protection_level_m + kCommonVertical_m;
   estimate->clock_bias_m = point_.clock_m;
   estimate->hdop = point_.hdop;
   estimate->vdop = point_.vdop;
