@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -98,6 +99,14 @@ struct Session {
   const char* navigation;
 };
 
+// Of a case: its systems and recording, in letters, digits and underscores.
+std::string Name(const Session& session) {
+  std::string name = std::string(session.systems) + "_" + session.observations;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+}
+
 class RecordedRtklib : public testing::TestWithParam<Session> {};
 
 TEST_P(RecordedRtklib, SolvesTheSameFromTheWrittenFile) {
@@ -108,7 +117,7 @@ TEST_P(RecordedRtklib, SolvesTheSameFromTheWrittenFile) {
   const std::string navigation = test::RecordingPath(session.navigation);
 
   const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / "lodemark_written";
+      std::filesystem::path(testing::TempDir()) / ("lodemark_written_" + Name(session));
   std::filesystem::create_directories(folder);
   const std::string plain = (folder / "plain.nav").string();
   const std::string written = (folder / "written.nav").string();
@@ -139,7 +148,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Session{"G", "gnss/pixel5_mtv_20210428/Pixel5_GnssLog_first1000.21o.gz",
                             "gnss/pixel5_mtv_20210428/hour1180.21n"},
                     Session{"G", "drive/hk_tst_20190428/COM3_190428_124409.obs.gz",
-                            "drive/hk_tst_20190428/hksc1180.19n"}));
+                            "drive/hk_tst_20190428/hksc1180.19n"}),
+    [](const auto& instance) { return Name(instance.param); });
 
 }  // namespace
 }  // namespace lodemark
