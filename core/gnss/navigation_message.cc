@@ -5,6 +5,7 @@
 #include "core/base/units.h"
 #include "core/gnss/broadcast_rules.h"
 #include "core/gnss/navigation_message_beidou.h"
+#include "core/gnss/navigation_message_beidou_d2.h"
 #include "core/gnss/navigation_message_galileo.h"
 #include "core/gnss/navigation_message_glonass.h"
 #include "core/gnss/navigation_message_gps.h"
@@ -28,6 +29,7 @@ struct NavigationMessageDecoder::Impl {
   std::map<SatelliteId, LnavAssembly> lnav;
   std::map<std::int32_t, GlonassAssembly> glonass;
   std::map<SatelliteId, D1Assembly> d1;
+  std::map<SatelliteId, D2Assembly> d2;
   std::map<SatelliteId, InavAssembly> inav;
 };
 
@@ -48,9 +50,11 @@ MessageVerdict NavigationMessageDecoder::Push(std::int32_t type, std::int32_t sv
       return MessageVerdict::kUnknownSatellite;
     }
     const SatelliteId satellite = {system, static_cast<std::uint8_t>(number)};
-    // What BeiDou's geostationary satellites send is D2, under whatever name.
-    if (IsBeidouGeostationary(satellite)) return MessageVerdict::kUnused;
     return assemblies[satellite].Push(satellite, bytes, received_gps_ns, records);
+  };
+  const auto is_geostationary = [&] {
+    return svid >= 1 && svid <= LargestSatelliteNumber(System::kBeidou) &&
+           IsBeidouGeostationary({System::kBeidou, static_cast<std::uint8_t>(svid)});
   };
   switch (static_cast<AndroidMessageType>(type)) {
     case AndroidMessageType::kGpsL1Ca:
@@ -61,6 +65,9 @@ MessageVerdict NavigationMessageDecoder::Push(std::int32_t type, std::int32_t sv
       if (!IsGlonassSvid(svid)) return MessageVerdict::kUnknownSatellite;
       return impl_->glonass[svid].Push(svid, bytes, received_gps_ns, records);
     case AndroidMessageType::kBeidouD1:
+    case AndroidMessageType::kBeidouD2:
+      // Geostationary satellites send D2 and the others D1, under whatever name.
+      if (is_geostationary()) return to(System::kBeidou, 1, impl_->d2);
       return to(System::kBeidou, 1, impl_->d1);
     case AndroidMessageType::kGalileoInav:
       return to(System::kGalileo, 1, impl_->inav);

@@ -16,6 +16,7 @@ enum class AndroidMessageType : std::int32_t {
   kGlonassL1Ca = 0x0301,
   kQzssL1Ca = 0x0401,
   kBeidouD1 = 0x0501,
+  kBeidouD2 = 0x0502,
   kGalileoInav = 0x0601,
 };
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <iterator>
 #include <span>
 #include <variant>
 #include <vector>
@@ -146,12 +147,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<std::uint8_t> bytes(input.begin(),
                                     input.begin() + static_cast<std::ptrdiff_t>(length));
     input = input.subspan(length);
-    constexpr std::int32_t kTypes[] = {0x0101, 0x0301, 0x0401, 0x0501, 0x0601, 0x0102};
-    const std::int32_t type = kTypes[kind % 6];
+    constexpr std::int32_t kTypes[] = {0x0101, 0x0301, 0x0401, 0x0501, 0x0601, 0x0102, 0x0502};
+    const std::int32_t type = kTypes[kind % std::size(kTypes)];
     if (kind < 128) {
       if (type == 0x0101 || type == 0x0401) FixGps(&bytes);
       if (type == 0x0301) FixGlonass(&bytes);
-      if (type == 0x0501) FixBeidou(&bytes);
+      if (type == 0x0501 || type == 0x0502) FixBeidou(&bytes);
       if (type == 0x0601) FixGalileo(&bytes);
     }
     decoder.Push(type, svid, bytes, time_gps_ns, &records);

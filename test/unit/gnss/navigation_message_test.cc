@@ -10,52 +10,20 @@
 
 #include "core/base/units.h"
 #include "core/geo/time.h"
+#include "test/unit/gnss/message_bits.h"
 
 namespace lodemark {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using test::BeidouBytes;
+using test::Bits;
+using test::Bytes;
 
 constexpr std::int32_t kGps = 0x0101, kGlonass = 0x0301, kBeidou = 0x0501, kGalileo = 0x0601;
 
 std::int64_t At(int year, int month, int day, int hour, int minute, double second) {
   return *NanosecondsFromCalendar({year, month, day, hour, minute, second});
 }
-
-// Bits numbered from 1, as the interface documents do.
-class Bits {
- public:
-  explicit Bits(std::size_t count) : bits_(count) {}
-
-  void Set(std::size_t first, std::size_t count, std::int64_t value) {
-    for (std::size_t i = 0; i < count; ++i) {
-      bits_[first - 1 + i] = (value >> (count - 1 - i) & 1) != 0;
-    }
-  }
-  bool operator[](std::size_t number) const { return bits_[number - 1]; }
-  void Flip(std::size_t number) { bits_[number - 1] = !bits_[number - 1]; }
-  std::size_t size() const { return bits_.size(); }
-
-  Bytes ToBytes() const {
-    Bytes bytes((bits_.size() + 7) / 8);
-    for (std::size_t i = 0; i < bits_.size(); ++i) {
-      if (bits_[i]) bytes[i / 8] = static_cast<std::uint8_t>(bytes[i / 8] | 0x80 >> i % 8);
-    }
-    return bytes;
-  }
-
-  // Thirty bits in each four bytes, at their end.
-  Bytes ToWords() const {
-    Bits words(bits_.size() / 30 * 32);
-    for (std::size_t i = 0; i < bits_.size(); ++i) {
-      words.bits_[i / 30 * 32 + 2 + i % 30] = bits_[i];
-    }
-    return words.ToBytes();
-  }
-
- private:
-  std::vector<bool> bits_;
-};
 
 struct Push {
   NavigationMessageDecoder decoder;
@@ -583,32 +551,7 @@ TEST(NavigationMessageDecoder, NoSingleWrongGalileoBitPasses) {
   }
 }
 
-// BeiDou. Each eleven bits get the remainder of their division by x^4 + x + 1.
-std::int64_t Bch(std::int64_t data) {
-  std::int64_t rest = data << 4;
-  for (int bit = 14; bit >= 4; --bit) {
-    if ((rest >> bit & 1) != 0) rest ^= std::int64_t{0b10011} << (bit - 4);
-  }
-  return rest;
-}
-
-Bytes BeidouBytes(Bits s) {
-  const auto take = [&](std::size_t first, std::size_t step) {
-    std::int64_t value = 0;
-    for (std::size_t i = 0; i < 11; ++i) value = value << 1 | (s[first + step * i] ? 1 : 0);
-    return value;
-  };
-  s.Set(27, 4, Bch(take(16, 1)));
-  for (std::size_t word = 30; word < 300; word += 30) {
-    const std::int64_t odd = Bch(take(word + 1, 2));
-    const std::int64_t even = Bch(take(word + 2, 2));
-    for (std::size_t i = 0; i < 4; ++i) {
-      s.Set(word + 23 + 2 * i, 1, odd >> (3 - i));
-      s.Set(word + 24 + 2 * i, 1, even >> (3 - i));
-    }
-  }
-  return s.ToWords();
-}
+// BeiDou.
 
 // A field in two parts.
 void SetSplit(Bits* s, std::size_t first, std::size_t count, std::size_t second,
@@ -713,7 +656,7 @@ TEST(NavigationMessageDecoder, SaysWhyAMessageIsNotTaken) {
   EXPECT_EQ(push(kGps, 0, good, kPerth_ns), MessageVerdict::kUnknownSatellite);
   EXPECT_EQ(push(kGps, 33, good, kPerth_ns), MessageVerdict::kUnknownSatellite);
   EXPECT_EQ(push(kGlonass, 60, good, kPerth_ns), MessageVerdict::kUnknownSatellite);
-  EXPECT_EQ(push(kBeidou, 3, good, kPerth_ns), MessageVerdict::kUnused);  // sends D2
+  EXPECT_EQ(push(kBeidou, 64, good, kPerth_ns), MessageVerdict::kUnknownSatellite);
   EXPECT_EQ(push(kGps, 7, Bytes(39), kPerth_ns), MessageVerdict::kMalformed);
   EXPECT_EQ(push(kGps, 7, Bytes(), kPerth_ns), MessageVerdict::kMalformed);
   EXPECT_EQ(push(kGps, 7, good, -1), MessageVerdict::kUnknownTime);
