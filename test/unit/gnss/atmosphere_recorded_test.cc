@@ -1,6 +1,7 @@
 // Ionosphere and troposphere against a professional simulator's truth for every satellite.
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -153,6 +154,45 @@ TEST(RecordedAtmosphere, KlobucharIsTheSimulatorsToTwoMillimetres) {
     // The day ends at |x| = 1.57 (IS-GPS-200N), 2 % of the amplitude above the night; for the
     // simulator at pi / 2. Two of NavIC's rows lie between.
     EXPECT_LE(apart, 2) << use.system << " column " << use.column;
+  }
+}
+
+// The simulator's third generation of BeiDou sees BDGIM, whose nine coefficients its files do not
+// hold. The delay is linear in them, and a fit leaves nothing of the slant delays at 490 places in
+// the sky down to the horizon: harmonics, prediction and mapping function are the simulator's.
+// (With the mapping function of CODE, which a program of the model's authors uses, 35 mm RMS are
+// left.)
+TEST(RecordedAtmosphere, NineCoefficientsMakeBdgimTheSimulatorsToAMillimetre) {
+  LODEMARK_NEEDS_RECORDING(kFile);
+  constexpr double kBase_tecu = 100.0;  // far from where the model is cut off at zero
+  std::vector<SatelliteTruth> rows = ReadTruth();
+  std::erase_if(rows, [](const SatelliteTruth& row) {
+    return row.system != "BeiDou" || row.ionosphere_m[3] == 0.0;
+  });
+  ASSERT_EQ(rows.size(), 490u);
+  Eigen::MatrixXd slopes(rows.size(), 9);
+  Eigen::VectorXd rest_m(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const SatelliteTruth& row = rows[i];
+    const auto delay_m = [&](const BdgimParameters& parameters) {
+      return BdgimDelay(parameters, PredictBdgim(row.time_gps_ns), kPlace, row.look,
+                        row.time_gps_ns, 1575.42e6);
+    };
+    const BdgimParameters base = {{kBase_tecu}};
+    const auto k = static_cast<Eigen::Index>(i);
+    rest_m[k] = row.ionosphere_m[3] - delay_m(base);
+    for (std::size_t j = 0; j < 9; ++j) {
+      BdgimParameters more = base;
+      more.alpha[j] += 1.0;
+      slopes(k, static_cast<Eigen::Index>(j)) = delay_m(more) - delay_m(base);
+    }
+  }
+  Eigen::VectorXd alpha = slopes.colPivHouseholderQr().solve(rest_m);
+  EXPECT_LT((rest_m - slopes * alpha).cwiseAbs().maxCoeff(), 0.001);
+  alpha[0] += kBase_tecu;
+  // What was sent are multiples of the message's unit, 1/8 TECu.
+  for (Eigen::Index j = 0; j < 9; ++j) {
+    EXPECT_NEAR(alpha[j], std::round(8.0 * alpha[j]) / 8.0, 0.01) << j;
   }
 }
 
