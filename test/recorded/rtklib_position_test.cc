@@ -107,7 +107,8 @@ Differences Compare(const ReplayFiles& files) {
 
 // Weights differ, and large residuals count less with us: that makes 0.2 m of the 0.3 m in Nagoya,
 // which stay with the troposphere off in both programs. The rest is the air: RTKLIB's is standard
-// air of 70 % humidity, mapped by the cosine of the zenith angle; ours the climate, mapped by Niell.
+// air of 70 % humidity, mapped by the cosine of the zenith angle; ours has the climate of the place
+// and Niell's mapping.
 TEST(RecordedRtklib, AgreesInNagoya) {
   LODEMARK_NEEDS_RECORDING("gnss/rtk_nagoya_20240624");
   LODEMARK_NEEDS_RTKLIB();
