@@ -9,6 +9,9 @@ namespace {
 
 constexpr int kFewest = 4;
 
+// A rate of less weight, beyond some 4 sigma, contradicts the others.
+constexpr double kContradicts = 0.1;
+
 }  // namespace
 
 bool AdjustVelocity(std::span<const RangeRateObservation> observations, VelocityEstimate* estimate,
@@ -48,6 +51,7 @@ bool AdjustVelocity(std::span<const RangeRateObservation> observations, Velocity
   }
   double cost = 0.0;
   double count = 0.0;
+  bool contradicted = false;
   for (std::size_t k = 0; k < observations.size(); ++k) {
     RateVerdict& verdict = (*verdicts)[k];
     Eigen::Vector4d row;
@@ -57,8 +61,10 @@ bool AdjustVelocity(std::span<const RangeRateObservation> observations, Velocity
     cost += verdict.weight * u * u;
     count += verdict.weight;
     if (verdict.weight >= 0.5) ++estimate->used;
+    contradicted = contradicted || verdict.weight < kContradicts;
   }
-  if (estimate->used < kFewest) return false;
+  // Any four rates agree; to prove another wrong takes a fifth.
+  if (estimate->used < kFewest + (contradicted ? 1 : 0)) return false;
   // The spread found, if it exceeds the stated one.
   const double factor = std::max(1.0, cost / std::max(1.0, count - 4.0));
   const Eigen::Matrix4d covariance = factor * normal.ldlt().solve(Eigen::Matrix4d::Identity());

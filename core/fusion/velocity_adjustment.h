@@ -22,7 +22,8 @@ struct RateVerdict {
   double weight = 0.0;  // 0..1
 };
 
-// Robust least squares; false if fewer than four rates or if they do not fix the velocity.
+// Robust least squares; false if fewer than four rates, if they do not fix the velocity, or if only
+// four agree and another contradicts them.
 // verdicts: one per observation.
 bool AdjustVelocity(std::span<const RangeRateObservation> observations, VelocityEstimate* estimate,
                     std::vector<RateVerdict>* verdicts);
