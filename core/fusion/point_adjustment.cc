@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/fusion/protection.h"
@@ -11,7 +12,8 @@ namespace lodemark {
 namespace {
 
 // Ranges in doubt, in sum of probabilities, below which mode and mean are one. Where a range is as
-// good as certainly a gross error, none of the places in question explains it: it weighs them alike.
+// good as certainly a gross error, none of the places in question explains it: it weighs them
+// alike.
 constexpr double kDoubtful = 0.5;
 
 // Reflections last and come in families, so an epoch with many tells less than independent errors
@@ -19,7 +21,6 @@ constexpr double kDoubtful = 0.5;
 constexpr double kReflectionsAlike = 3.0;
 
 constexpr double kConverged_m = 1e-4;
-constexpr double kUnknownBias_m = 1e4;  // a sigma beyond which a bias counts as not known
 
 // Ranges, in sum of probabilities, that must fit the error model beyond those that determine the
 // unknowns, as far as there are more: any three spheres and a clock meet somewhere. The slack is
@@ -147,6 +148,32 @@ int Descend(PointProblem* problem, int largest_iterations) {
   return largest_iterations;
 }
 
+// What the uncertainty of the unknowns that the sampling holds adds to the covariance of those that
+// it does not (law of total covariance). covariance: of all unknowns, at the mode.
+Eigen::Matrix4d FromHeldUnknowns(const PointProblem& problem, const PointMatrix& covariance) {
+  std::array<Eigen::Index, kMaxPointUnknowns> held = {};
+  Eigen::Index count = 0;
+  for (int k = 4; k < problem.unknowns(); ++k) {
+    const int clock = k - 3;
+    if (clock >= problem.clocks() || problem.IsShared(clock)) {
+      held[static_cast<std::size_t>(count++)] = k;
+    }
+  }
+  if (count == 0) return Eigen::Matrix4d::Zero();
+  PointMatrix of_held(count, count);
+  PointMatrix with_sampled(count, 4);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index k = held[static_cast<std::size_t>(i)];
+    with_sampled.row(i) = covariance.block<1, 4>(k, 0);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      of_held(i, j) = covariance(k, held[static_cast<std::size_t>(j)]);
+    }
+  }
+  const Eigen::LDLT<PointMatrix> factor(of_held);
+  const PointMatrix gain = factor.solve(with_sampled);
+  return with_sampled.transpose() * gain;
+}
+
 }  // namespace
 
 PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observations,
@@ -191,7 +218,10 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
     doubtful += 1.0 - std::max(terms.core_share, gross_share);
   }
   if (options.posterior_mean && redundancy > 0 && problem.clocks() > 0 && doubtful > kDoubtful) {
-    if (!sampling_) sampling_.emplace(options.posterior_samples);
+    if (!sampling_ || samples_ != options.posterior_samples) {
+      samples_ = options.posterior_samples;
+      sampling_.emplace(samples_);
+    }
     Eigen::Matrix4d proposal = 6.0 * covariance.topLeftCorner<4, 4>();
     proposal += Eigen::Vector4d(25.0, 25.0, 50.0, 25.0).asDiagonal();
     const PosteriorMoments moments = sampling_->Run(problem, proposal);
@@ -199,8 +229,9 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
       PointVector step = PointVector::Zero(problem.unknowns());
       step.head<4>() = moments.mean;
       problem.Step(step);
-      estimate->covariance_enu_m2 = moments.covariance.topLeftCorner<3, 3>();
-      estimate->clock_variance_m2 = moments.covariance(3, 3);
+      const Eigen::Matrix4d sum = moments.covariance + FromHeldUnknowns(problem, covariance);
+      estimate->covariance_enu_m2 = sum.topLeftCorner<3, 3>();
+      estimate->clock_variance_m2 = sum(3, 3);
     }
   }
 
@@ -234,8 +265,7 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
     verdict.weight = terms.core_share;
     verdict.late_share = terms.late_share;
     verdict.used = verdict.weight >= 0.5;
-    verdict.observable = row.clock <= 0 || problem.members(row.clock) > 1 ||
-                         problem.prior_sigma_m(row.clock) <= kUnknownBias_m;
+    verdict.observable = problem.IsObservable(row);
     if (verdict.used) ++estimate->used;
     explained += terms.core_share + terms.late_share;
     ordinary += terms.core_share;

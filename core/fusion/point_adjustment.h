@@ -77,6 +77,7 @@ class PointAdjustment {
   std::vector<PointProblem::Row> rows_;
   std::vector<double> weights_;
   std::optional<PosteriorSampling> sampling_;
+  int samples_ = 0;  // that sampling_ was made for
 };
 
 }  // namespace lodemark

@@ -71,6 +71,15 @@ void PointProblem::Step(const PointVector& step) {
   MoveTo(point_in_ecef_ + enu_from_ecef_.transpose() * step.head<3>());
 }
 
+bool PointProblem::IsShared(int clock) const {
+  if (members(clock) > 1) return true;
+  if (clock > 0) return prior_sigma_m(clock) <= kUnknownBias_m;
+  for (int other = 1; other < clocks_; ++other) {
+    if (prior_sigma_m(other) <= kUnknownBias_m) return true;
+  }
+  return false;
+}
+
 double PointProblem::ClockOf(const Row& row) const {
   if (row.clock < 0) return 0.0;
   return row.clock == 0 ? clock_state_[0] : clock_state_[0] + clock_state_[row.clock];

@@ -19,6 +19,8 @@ struct HeightPrior {
   double sigma_m = 0.0;
 };
 
+inline constexpr double kUnknownBias_m = 1e4;  // a sigma beyond which a bias counts as not known
+
 inline constexpr int kMaxPointUnknowns = 3 + kMaxClockGroups + 1;
 using PointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxPointUnknowns, 1>;
 using PointMatrix =
@@ -53,6 +55,10 @@ class PointProblem {
   std::span<const Row> rows() const { return *rows_; }
   const Eigen::Vector3d& point_in_ecef() const { return point_in_ecef_; }
   const Eigen::Matrix3d& enu_from_ecef() const { return enu_from_ecef_; }
+  // Whether a clock is worth more than one range of it: false for the only range of a clock that
+  // nothing ties to another.
+  bool IsShared(int clock) const;
+  bool IsObservable(const Row& row) const { return row.clock < 0 || IsShared(row.clock); }
   // Value of the clock that a row contains.
   double ClockOf(const Row& row) const;
   PointVector& clock_state() { return clock_state_; }

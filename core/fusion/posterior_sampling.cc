@@ -113,12 +113,14 @@ PosteriorMoments PosteriorSampling::Round(const PointProblem& problem, const Eig
 PosteriorMoments PosteriorSampling::Run(const PointProblem& problem,
                                         const Eigen::Matrix4d& proposal) {
   tables_.resize(problem.rows().size());
-  lines_.resize(problem.rows().size());
-  for (std::size_t i = 0; i < lines_.size(); ++i) {
-    const PointProblem::Row& row = problem.rows()[i];
-    tables_[i].Fill(row.error);
-    lines_[i].slope << row.direction, (row.clock < 0 ? 0.0 : -1.0);
-    lines_[i].residual_m = problem.Residual(row);
+  lines_.clear();
+  for (const PointProblem::Row& row : problem.rows()) {
+    // Holding a clock that this range alone determines would make the range tell something.
+    if (row.clock > 0 && !problem.IsShared(row.clock)) continue;
+    tables_[lines_.size()].Fill(row.error);
+    Line& line = lines_.emplace_back();
+    line.slope << row.direction, (row.clock < 0 ? 0.0 : -1.0);
+    line.residual_m = problem.Residual(row);
   }
   PosteriorMoments moments = Round(problem, Eigen::Vector4d::Zero(), proposal);
   const double enough = kEnough * static_cast<double>(samples_);
