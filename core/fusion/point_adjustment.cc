@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/fusion/protection.h"
 #include "core/fusion/range_error.h"
@@ -19,6 +20,11 @@ constexpr double kDoubtful = 0.5;
 // Reflections last and come in families, so an epoch with many tells less than independent errors
 // would: the covariance grows by this much times their share.
 constexpr double kReflectionsAlike = 3.0;
+
+// Rows more than expected that noise does not explain, beyond which the approach is in doubt, and
+// how many of the rows it hangs on are then left out in turn.
+constexpr double kSurprising = 1.5;
+constexpr std::size_t kSuspects = 3;
 
 constexpr double kConverged_m = 1e-4;
 
@@ -79,10 +85,12 @@ struct Normals {
 };
 
 // Least squares from far away, then with shrinking kernels. False if there is no solution.
-bool Approach(PointProblem* problem, bool robust) {
+// left_out: a row that is not heard, or null.
+bool Approach(PointProblem* problem, bool robust, const PointProblem::Row* left_out) {
   const auto solve = [&](double width) {
     Normals normals(problem->unknowns());
     for (const PointProblem::Row& row : problem->rows()) {
+      if (&row == left_out) continue;
       const double residual_m = problem->Residual(row);
       const double weight = GraduatedWeight(residual_m, row.error.sigma_m, width);
       problem->Accumulate(row, weight, weight * residual_m, &normals.matrix, &normals.right);
@@ -102,6 +110,7 @@ bool Approach(PointProblem* problem, bool robust) {
   // Begin where the worst residual is not yet suspect.
   double worst = 0.0;
   for (const PointProblem::Row& row : problem->rows()) {
+    if (&row == left_out) continue;
     worst = std::max(worst, std::abs(problem->Residual(row)) / row.error.sigma_m);
   }
   for (double width = std::clamp(worst, 16.0, 1e7); width > 1.5; width *= 0.6) {
@@ -146,6 +155,57 @@ int Descend(PointProblem* problem, int largest_iterations) {
     if (scale * step.norm() < kConverged_m || (gain < 1e-9 && scale * step.norm() < 0.01)) return i;
   }
   return largest_iterations;
+}
+
+// How many more rows than expected are likelier anything but noise.
+double Surprise(const PointProblem& problem) {
+  double surprise = 0.0;
+  for (const PointProblem::Row& row : problem.rows()) {
+    surprise += 1.0 - EvaluateRangeError(row.error, problem.Residual(row)).core_share;
+    surprise -= row.error.late_probability;
+  }
+  return surprise;
+}
+
+// The rows that hold the present state most, by what their information is worth to it.
+std::array<const PointProblem::Row*, kSuspects> Suspects(const PointProblem& problem) {
+  std::array<const PointProblem::Row*, kSuspects> suspects = {};
+  std::array<double, kSuspects> leverages = {};
+  Normals normals(problem.unknowns());
+  ModelNormals(problem, &normals.matrix, &normals.right);
+  const Eigen::LLT<PointMatrix, Eigen::Upper> factor(normals.matrix);
+  if (factor.info() != Eigen::Success) return suspects;
+  for (const PointProblem::Row& row : problem.rows()) {
+    const PointVector slope = problem.Slope(row);
+    const double core_share = EvaluateRangeError(row.error, problem.Residual(row)).core_share;
+    const PointVector gain = factor.solve(slope);
+    double leverage = core_share * slope.dot(gain) / (row.error.sigma_m * row.error.sigma_m);
+    const PointProblem::Row* suspect = &row;
+    for (std::size_t i = 0; i < kSuspects; ++i) {
+      if (leverage <= leverages[i]) continue;
+      std::swap(leverage, leverages[i]);
+      std::swap(suspect, suspects[i]);
+    }
+  }
+  return suspects;
+}
+
+// A single wrong range with much leverage can draw the approach to itself, so that it fits and
+// others do not. Approaches again without each of the rows that the state hangs on, and keeps the
+// mode that costs least.
+void Reconsider(PointProblem* problem, int largest_iterations) {
+  PointProblem best = *problem;
+  double least = Cost(best);
+  for (const PointProblem::Row* suspect : Suspects(*problem)) {
+    if (suspect == nullptr || !Approach(problem, true, suspect)) continue;
+    if (Descend(problem, largest_iterations) < 0) continue;
+    const double cost = Cost(*problem);
+    if (!(cost < least)) continue;
+    least = cost;
+    best = *problem;
+  }
+  *problem = best;
+  problem->MoveTo(problem->point_in_ecef());  // the rows are shared
 }
 
 // What the uncertainty of the unknowns that the sampling holds adds to the covariance of those that
@@ -197,9 +257,14 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
   estimate->redundancy = redundancy;
   if (redundancy < 0 || observations.empty()) return estimate->status = PointStatus::kTooFew;
 
-  if (!Approach(&problem, redundancy > 0)) return estimate->status = PointStatus::kNotConverged;
+  if (!Approach(&problem, redundancy > 0, nullptr)) {
+    return estimate->status = PointStatus::kNotConverged;
+  }
   estimate->iterations = Descend(&problem, options.largest_iterations);
   if (estimate->iterations < 0) return estimate->status = PointStatus::kNotConverged;
+  if (redundancy > 1 && Surprise(problem) > kSurprising) {
+    Reconsider(&problem, options.largest_iterations);
+  }
 
   // Information at the mode.
   Normals normals(problem.unknowns());

@@ -300,6 +300,29 @@ TEST(PointAdjustment, GrossErrorsDoNotMoveIt) {
   EXPECT_EQ(adjusted.estimate.used, 10);
 }
 
+// However much it pulls, and wherever it stands in the sky.
+TEST(PointAdjustment, OneGrossErrorNeverMovesIt) {
+  Random random(290);
+  int moved = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    RangeScene scene;
+    for (int i = 0; i < 12; ++i) {
+      scene.AddSatellite(30.0 * i + random.Uniform(-15.0, 15.0),
+                         i % 3 == 0 ? random.Uniform(40.0, 90.0) : random.Uniform(10.0, 60.0));
+    }
+    AddNoise(&scene, 1.0, 1000 + static_cast<std::uint64_t>(trial));
+    const double size_m = std::exp(random.Uniform(std::log(50.0), std::log(1e6)));
+    scene.ranges[random.Index(12)].range_m += trial % 2 == 0 ? size_m : -size_m;
+    const Adjusted adjusted = Adjust(scene);
+    const double sigma_m = std::sqrt(adjusted.estimate.covariance_enu_m2.trace());
+    if (adjusted.status != PointStatus::kGood ||
+        DistanceFromTruth(scene, adjusted) > 10.0 + 4.0 * sigma_m) {
+      ++moved;
+    }
+  }
+  EXPECT_EQ(moved, 0);
+}
+
 TEST(PointAdjustment, SaysWhereAllRangesAreNonsense) {
   Random random(11);
   for (int trial = 0; trial < 20; ++trial) {
