@@ -27,6 +27,7 @@ constexpr double kSurprising = 1.5;
 constexpr std::size_t kSuspects = 3;
 
 constexpr double kConverged_m = 1e-4;
+constexpr double kSmallGain = 1e-6;     // of -log density, with a step of centimetres
 
 // Ranges, in sum of probabilities, that must fit the error model beyond those that determine the
 // unknowns, as far as there are more: any three spheres and a clock meet somewhere. The slack is
@@ -152,7 +153,9 @@ int Descend(PointProblem* problem, int largest_iterations) {
     }
     const double gain = cost - new_cost;
     cost = new_cost;
-    if (scale * step.norm() < kConverged_m || (gain < 1e-9 && scale * step.norm() < 0.01)) return i;
+    if (scale * step.norm() < kConverged_m || (gain < kSmallGain && scale * step.norm() < 0.02)) {
+      return i;
+    }
   }
   return largest_iterations;
 }

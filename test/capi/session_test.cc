@@ -173,6 +173,19 @@ TEST_F(SessionTest, SaysThatNothingWaits) {
   EXPECT_EQ(estimate_.present, 0u);
 }
 
+TEST_F(SessionTest, SaysThatNoSatelliteHasAnOrbit) {
+  phone_.Measure(kStart_gps_ns);
+  ASSERT_EQ(PushPhone(), LODEMARK_OK);
+  EXPECT_EQ(lodemark_session_process(session_), LODEMARK_NO_POSITION);
+  EXPECT_EQ(Estimate(), LODEMARK_NO_POSITION);
+  EXPECT_EQ(estimate_.outcome, LODEMARK_OUTCOME_NO_EPHEMERIS);
+  EXPECT_FALSE(estimate_.present & LODEMARK_ESTIMATE_HAS_POSITION);
+  EXPECT_EQ(estimate_.ecef_m[0], 0.0);
+  for (const lodemark_satellite& satellite : Satellites()) {
+    EXPECT_EQ(satellite.verdict, LODEMARK_VERDICT_NO_EPHEMERIS);
+  }
+}
+
 TEST_F(SessionTest, SaysThatThreeSatellitesAreTooFew) {
   ASSERT_EQ(PushNavigation(), LODEMARK_OK);
   phone_.Measure(kStart_gps_ns);
@@ -198,6 +211,26 @@ TEST_F(SessionTest, AsksToProcessWhenTheQueueIsFull) {
   EXPECT_EQ(PushPhone(), LODEMARK_ERROR_QUEUE_FULL);
   EXPECT_GE(lodemark_session_process(session_), 0);
   EXPECT_EQ(PushPhone(), LODEMARK_OK);
+}
+
+TEST_F(SessionTest, ReportsItsFirstFixUntilEventsAreCleared) {
+  ASSERT_EQ(PushNavigation(), LODEMARK_OK);
+  phone_.Measure(kStart_gps_ns);
+  ASSERT_EQ(PushPhone(), LODEMARK_OK);
+  ASSERT_EQ(lodemark_session_process(session_), LODEMARK_OK);
+  std::vector<lodemark_event> events(8);
+  events[0].struct_size = sizeof events[0];
+  std::int32_t count = 0;
+  ASSERT_EQ(lodemark_session_events(session_, events.data(), 8, &count), LODEMARK_OK);
+  bool first_fix = false;
+  for (int i = 0; i < count && i < 8; ++i) {
+    first_fix = first_fix || events[static_cast<std::size_t>(i)].kind == LODEMARK_EVENT_FIRST_FIX;
+    EXPECT_NE(events[static_cast<std::size_t>(i)].text[0], '\0');
+  }
+  EXPECT_TRUE(first_fix);
+  ASSERT_EQ(lodemark_session_clear_events(session_), LODEMARK_OK);
+  ASSERT_EQ(lodemark_session_events(session_, nullptr, 0, &count), LODEMARK_OK);
+  EXPECT_EQ(count, 0);
 }
 
 TEST_F(SessionTest, KeepsOrbitsWhenReset) {
