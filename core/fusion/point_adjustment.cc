@@ -27,7 +27,7 @@ constexpr double kSurprising = 1.5;
 constexpr std::size_t kSuspects = 3;
 
 constexpr double kConverged_m = 1e-4;
-constexpr double kSmallGain = 1e-6;     // of -log density, with a step of centimetres
+constexpr double kSmallGain = 1e-6;  // of -log density, with a step of centimetres
 
 // Ranges, in sum of probabilities, that must fit the error model beyond those that determine the
 // unknowns, as far as there are more: any three spheres and a clock meet somewhere. The slack is
