@@ -9,7 +9,7 @@ target_compile_options(
             -Wextra
             -Wpedantic
             -Wshadow
-            -Werror
+            $<$<BOOL:${LODEMARK_WARNINGS_AS_ERRORS}>:-Werror>
             $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
             $<$<COMPILE_LANGUAGE:CXX>:-Wold-style-cast>
             $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>
