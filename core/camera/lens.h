@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "core/base/result.h"
+#include "core/camera/lens_distortion.h"
 
 namespace lodemark {
 
@@ -50,12 +51,17 @@ struct ProjectionJacobian {
 };
 
 // A lens that was checked, with what inverting it needs worked out once: how far from the axis the
-// model stays one-to-one. Small, copyable, immutable.
+// model stays one-to-one, and a table of start values. A kilobyte, copyable, immutable.
+//
+// Guarantee: within the field limit no two directions share a pixel, whatever the coefficients (the
+// proof is beside OneToOneRadius), and neither Project nor Unproject answers beyond it. The limit
+// is a cone: exactly the fold for radial models, and the cone inside the fold where decentring or
+// prism terms make that uneven.
 class Lens {
  public:
   // Error if a number is not finite, a focal length not positive, the size not in 1 .. 65535, the
-  // principal point further than ten image sizes away, or a coefficient that the model lacks is
-  // set.
+  // principal point further than ten image sizes away, a coefficient that the model lacks is set,
+  // the sensor's tilt reaches 80 degrees, or the lens would be one-to-one nowhere.
   static Result<Lens> Create(const LensParameters& parameters);
 
   const LensParameters& parameters() const { return parameters_; }
@@ -70,7 +76,8 @@ class Lens {
                                          ProjectionJacobian* jacobian) const;
 
   // The unit direction a pixel looks to, by Newton steps until Project gives the pixel back within
-  // 1e-9 px. Nothing where no direction within the one-to-one part has this pixel.
+  // 1e-9 px (or 1e-13 of its distance from the principal point, if that is more: it is 10,000 px
+  // out). Nothing where no direction within the one-to-one part has this pixel.
   std::optional<Eigen::Vector3d> Unproject(const Eigen::Vector2d& pixel) const;
 
   // Unproject of many pixels: valid[i] is 1 where bearings[i] was found, else 0 (and the bearing is
@@ -86,6 +93,7 @@ class Lens {
   Lens() = default;
 
   LensParameters parameters_;
+  LensDistortion distortion_;
   double field_limit_rad_ = 0.0;
 };
 
