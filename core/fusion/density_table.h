@@ -1,7 +1,6 @@
 // The density of a range error model, tabulated for evaluation by the thousand.
 #pragma once
 
-#include <algorithm>
 #include <array>
 
 #include "core/fusion/observation.h"
@@ -15,9 +14,11 @@ class DensityTable {
  public:
   void Fill(const RangeErrorModel& model);
 
+  // Where the error model says nothing, at NaN, the table does neither.
   float operator()(float error_m) const {
-    const float place = std::clamp((error_m - core_begin_m_) * core_nodes_per_m_, 0.0f, kCore) +
-                        std::clamp((error_m - tail_begin_m_) * tail_nodes_per_m_, 0.0f, kTail);
+    const float core = (error_m - core_begin_m_) * core_nodes_per_m_;
+    const float tail = (error_m - tail_begin_m_) * tail_nodes_per_m_;
+    const float place = Within(core, kCore) + Within(tail, kTail);
     const int node = static_cast<int>(place);
     const float before = nodes_[static_cast<std::size_t>(node)];
     const float after = nodes_[static_cast<std::size_t>(node) + 1];
@@ -25,9 +26,17 @@ class DensityTable {
   }
 
  private:
-  static constexpr float kCore = 48.0f;  // steps
-  static constexpr float kTail = 36.0f;
-  static constexpr int kSteps = static_cast<int>(kCore + kTail);
+  // From 0 to the largest; the largest for NaN. Comparisons that compilers turn into vectors.
+  static float Within(float place, float largest) {
+    const float below = place < largest ? place : largest;
+    return below > 0.0f ? below : 0.0f;
+  }
+
+  static constexpr int kCoreSteps = 48;
+  static constexpr int kTailSteps = 36;
+  static constexpr float kCore = kCoreSteps;
+  static constexpr float kTail = kTailSteps;
+  static constexpr int kSteps = kCoreSteps + kTailSteps;
 
   float core_begin_m_ = 0.0f;
   float core_nodes_per_m_ = 1.0f;

@@ -6,6 +6,7 @@
 
 #include "core/fusion/density_table.h"
 #include "core/fusion/point_problem.h"
+#include "core/fusion/weighted_samples.h"
 
 namespace lodemark {
 
@@ -35,15 +36,10 @@ class PosteriorSampling {
   PosteriorMoments Round(const PointProblem& problem, const Eigen::Vector4d& mean,
                          const Eigen::Matrix4d& covariance);
 
-  int samples_;
-  // Standard normal points, one array per dimension.
-  std::vector<float> normal_[4];
-  std::vector<double> log_of_proposal_;  // half their squared length
+  WeightedSamples samples_;                  // standard normal points
+  std::vector<double> inverse_of_proposal_;  // one over their density, the largest being 1
   std::vector<DensityTable> tables_;
   std::vector<Line> lines_;
-  std::vector<float> residuals_m_;
-  std::vector<double> products_;
-  std::vector<double> log_weights_;
 };
 
 }  // namespace lodemark

@@ -76,5 +76,6 @@ double RangeErrorDensity(const RangeErrorModel& model, double error_m) {
 }
 
 double GrossErrorDensity() { return kGrossDensity_pm; }
+double GrossErrorProbability() { return kGrossProbability; }
 
 }  // namespace lodemark

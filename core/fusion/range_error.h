@@ -22,5 +22,7 @@ double RangeErrorDensity(const RangeErrorModel& model, double error_m);
 
 // What the density falls to far from zero, per metre.
 double GrossErrorDensity();
+// The probability of that flat part.
+double GrossErrorProbability();
 
 }  // namespace lodemark
