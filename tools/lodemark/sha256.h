@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "tools/lodemark/sha256_blocks.h"
 
 namespace lodemark {
 
@@ -17,10 +18,8 @@ class Sha256 {
   std::string Finish();
 
  private:
-  void AddBlock(const std::uint8_t* block);
-
-  std::array<std::uint32_t, 8> state_ = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                                         0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+  Sha256State state_ = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
+                        0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   std::array<std::uint8_t, 64> pending_ = {};
   std::uint64_t count_ = 0;  // bytes so far
 };

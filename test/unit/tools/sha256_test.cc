@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lodemark {
 namespace {
@@ -36,6 +39,30 @@ TEST(Sha256, DoesNotDependOnHowTheBytesArePortioned) {
     }
     EXPECT_EQ(hash.Finish(), whole) << portion;
   }
+}
+
+// The published digest of "abc": one block, padded by hand.
+TEST(Sha256, IsTheSameOnAnyProcessor) {
+  std::array<std::uint8_t, 64> block = {'a', 'b', 'c', 0x80};
+  block[63] = 24;
+  const Sha256State begin = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
+                             0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+  const Sha256State digest = {0xba7816bf, 0x8f01cfea, 0x414140de, 0x5dae2223,
+                              0xb00361a3, 0x96177a9c, 0xb410ff61, 0xf20015ad};
+  Sha256State state = begin;
+  AddSha256BlocksAnywhere(block.data(), 1, &state);
+  EXPECT_EQ(state, digest);
+  state = begin;
+  AddSha256Blocks(block.data(), 1, &state);
+  EXPECT_EQ(state, digest);
+
+  std::vector<std::uint8_t> blocks(64 * 37);
+  for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i] = static_cast<std::uint8_t>(i * i);
+  Sha256State anywhere = begin;
+  AddSha256BlocksAnywhere(blocks.data(), 37, &anywhere);
+  state = begin;
+  AddSha256Blocks(blocks.data(), 37, &state);
+  EXPECT_EQ(state, anywhere);
 }
 
 TEST(Sha256, HasNoFingerprintOfWhatIsNoFile) {
