@@ -82,6 +82,11 @@ Status Check(const LensParameters& p) {
   return {};
 }
 
+// A pixel in focal lengths from the principal point.
+Eigen::Vector2d ImageOf(const LensParameters& p, const Eigen::Vector2d& pixel) {
+  return {(pixel.x() - p.cx_px) / p.fx_px, (pixel.y() - p.cy_px) / p.fy_px};
+}
+
 // Distance of the furthest image corner from the principal point, in focal lengths.
 double FieldRadius(const LensParameters& p) {
   const double x = std::max(std::abs(p.cx_px), std::abs(p.width_px - 1 - p.cx_px)) / p.fx_px;
@@ -171,8 +176,7 @@ std::optional<Eigen::Vector2d> Lens::Project(const Eigen::Vector3d& point_in_cam
 }
 
 std::optional<Eigen::Vector3d> Lens::Unproject(const Eigen::Vector2d& pixel) const {
-  const auto ideal = distortion_.Invert({(pixel.x() - parameters_.cx_px) / parameters_.fx_px,
-                                         (pixel.y() - parameters_.cy_px) / parameters_.fy_px});
+  const auto ideal = distortion_.Invert(ImageOf(parameters_, pixel));
   if (!ideal) return std::nullopt;
   return FromIdeal(IdealImageOf(parameters_.model), *ideal);
 }
@@ -180,14 +184,26 @@ std::optional<Eigen::Vector3d> Lens::Unproject(const Eigen::Vector2d& pixel) con
 std::size_t Lens::Unproject(std::span<const Eigen::Vector2d> pixels,
                             std::span<Eigen::Vector3d> bearings,
                             std::span<std::uint8_t> valid) const {
-  std::size_t found = 0;
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const std::optional<Eigen::Vector3d> bearing = Unproject(pixels[i]);
-    valid[i] = bearing ? 1 : 0;
-    bearings[i] = bearing ? *bearing : Eigen::Vector3d(0.0, 0.0, 0.0);
-    found += valid[i];
+  constexpr std::size_t kLanes = LensDistortion::kLanes;
+  const IdealImage ideal_image = IdealImageOf(parameters_.model);
+  std::size_t count = 0;
+  for (std::size_t first = 0; first < pixels.size(); first += kLanes) {
+    const std::size_t lanes = std::min(kLanes, pixels.size() - first);
+    LensDistortion::Images images;
+    LensDistortion::Images ideals;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      // The last block is filled up with its first pixel.
+      images[i] = ImageOf(parameters_, pixels[first + (i < lanes ? i : 0)]);
+    }
+    const std::array<bool, kLanes> found = distortion_.Invert(images, &ideals);
+    for (std::size_t i = 0; i < lanes; ++i) {
+      valid[first + i] = found[i] ? 1 : 0;
+      bearings[first + i] =
+          found[i] ? FromIdeal(ideal_image, ideals[i]) : Eigen::Vector3d(0.0, 0.0, 0.0);
+      count += valid[first + i];
+    }
   }
-  return found;
+  return count;
 }
 
 }  // namespace lodemark

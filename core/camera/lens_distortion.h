@@ -86,17 +86,12 @@ class LensDistortion {
   // The point of the one-to-one disk that Apply takes to image. Nothing if there is none.
   std::optional<Eigen::Vector2d> Invert(const Eigen::Vector2d& image) const;
 
+  // The same, bit for bit, of several points at once.
+  static constexpr std::size_t kLanes = 8;
+  using Images = std::array<Eigen::Vector2d, kLanes>;
+  std::array<bool, kLanes> Invert(const Images& images, Images* ideals) const;
+
  private:
-  // N / D and its derivative by u.
-  struct Radial {
-    double factor;
-    double slope;
-  };
-  // A point before tilt and its derivative by the ideal point.
-  struct Flat {
-    double x, y;
-    double xx, xy, yx, yy;
-  };
   // Start values for undoing the radial part: ideal = scale * image, as a function of |image|^2.
   struct StartNode {
     double scale;
@@ -104,27 +99,35 @@ class LensDistortion {
   };
   static constexpr int kStartIntervals = 32;
 
-  Radial RadialAt(double u) const;
-  Flat FlatAt(double x, double y) const;
+  void FillStartNodes(double field_radius);
+  double RadialAt(double radius) const;
   double StartScale(double image_u) const;
-  double UndoRadial(double image_u) const;
-  double BisectRadial(double image_radius, double low, double high) const;
-  std::optional<Eigen::Vector2d> InvertRadial(double x, double y) const;
+  double BisectRadial(double image_radius) const;
+  template <bool kIsRational, std::size_t kCount>
+  void QuickRadial(const double* x, const double* y, double* scale, double* miss2) const;
+  template <bool kIsRational, std::size_t kCount>
+  void QuickFlat(const double* x, const double* y, double* ideal_x, double* ideal_y,
+                 double* miss2) const;
+  template <std::size_t kCount>
+  void Quick(const double* x, const double* y, double* ideal_x, double* ideal_y, bool* found) const;
   std::optional<Eigen::Vector2d> InvertFlat(double x, double y) const;
+  std::optional<Eigen::Vector2d> InvertSlowly(double x, double y) const;
   std::optional<Eigen::Vector2d> InvertTilted(const Eigen::Vector2d& image) const;
-  std::optional<Eigen::Vector2d> NewtonFrom(double x, double y, double goal_x, double goal_y) const;
-  void FillTermDerivatives(double x, double y, DistortionJacobian* jacobian) const;
+  std::optional<Eigen::Vector2d> NewtonFrom(double scale, double goal_x, double goal_y) const;
+  void FillTermDerivatives(const Eigen::Vector2d& ideal, DistortionJacobian* jacobian) const;
 
   DistortionTerms terms_;
-  bool identity_ = true;
-  bool radial_only_ = true;
-  bool rational_ = false;
-  bool tilted_ = false;
+  bool is_identity_ = true;
+  bool is_radial_ = true;
+  bool is_rational_ = false;
+  bool is_tilted_ = false;
   double one_to_one_radius_ = 0.0;
+  double most_u_ = 0.0;                  // its square, and rounding
   double outermost_image_radius_ = 0.0;  // nothing of the disk appears further out (before tilt)
   double tolerance_ = 0.0;               // before tilt
   double tilted_tolerance_ = 0.0;        // after it
   double start_per_u_ = 0.0;             // nodes per unit of |image|^2
+  double start_width_ = 0.0;             // between nodes
   std::array<StartNode, kStartIntervals + 1> start_ = {};
   Eigen::Matrix3d tilted_from_flat_ = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d flat_from_tilted_ = Eigen::Matrix3d::Identity();
