@@ -26,7 +26,7 @@ struct PointOptions {
   int largest_iterations = 20;
   // Posterior mean over the whole error model instead of its mode wherever some ranges disagree.
   bool posterior_mean = true;
-  int posterior_samples = 256;  // a round
+  int posterior_samples = 512;  // a round
   std::optional<HeightPrior> height;
   // Estimates the zenith delay that no model took out, zero within this sigma; 0: does not.
   double zenith_delay_sigma_m = 0.0;

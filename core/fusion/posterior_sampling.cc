@@ -24,25 +24,48 @@ double RadicalInverse(int index, int base) {
   return result;
 }
 
+// Proposals are Student's t with so many degrees of freedom, scaled to the covariance asked for:
+// late errors make tails that fall more slowly than a normal density, and samples that reach there
+// must not be rare.
+constexpr double kFreedom = 6.0;
+
+// Newton's steps from the mode of the density, from where they cannot overshoot.
+double ChiSquareQuantileOfSix(double probability) {
+  double x = 4.0;
+  for (int i = 0; i < 12; ++i) {
+    const double tail = std::exp(-0.5 * x);
+    const double excess = 1.0 - tail * (1.0 + 0.5 * x * (1.0 + 0.25 * x)) - probability;
+    const double step = excess / (0.0625 * x * x * tail);
+    x -= step;
+    if (std::abs(step) < 1e-9 * x) break;
+  }
+  return x;
+}
+
 }  // namespace
 
 PosteriorSampling::PosteriorSampling(int samples) : samples_(std::max(samples, 16)) {
-  // Halton's points turned into normal ones by pairs (Box and Muller).
-  std::vector<double> exponents;
+  // Halton's points turned into normal ones by pairs (Box and Muller), spread by a fifth dimension,
+  // and each with its mirror image: what is symmetric has its mean in the middle.
+  std::vector<double> logarithms;
   for (std::size_t k = 0; k < samples_.count(); ++k) {
-    const int i = static_cast<int>(k) + 1;
+    const int i = static_cast<int>(k / 2) + 1;
     const double radius = std::sqrt(-2.0 * std::log(RadicalInverse(i, 2)));
     const double angle = 2.0 * kPi * RadicalInverse(i, 3);
     const double other_radius = std::sqrt(-2.0 * std::log(RadicalInverse(i, 5)));
     const double other_angle = 2.0 * kPi * RadicalInverse(i, 7);
-    samples_.SetPoint(k,
-                      {radius * std::cos(angle), radius * std::sin(angle),
-                       other_radius * std::cos(other_angle), other_radius * std::sin(other_angle)});
-    exponents.push_back(0.5 * (radius * radius + other_radius * other_radius));
+    const Eigen::Vector4d normal(radius * std::cos(angle), radius * std::sin(angle),
+                                 other_radius * std::cos(other_angle),
+                                 other_radius * std::sin(other_angle));
+    const Eigen::Vector4d point =
+        std::sqrt((kFreedom - 2.0) / ChiSquareQuantileOfSix(RadicalInverse(i, 11))) * normal;
+    samples_.SetPoint(k, k % 2 == 0 ? point : Eigen::Vector4d(-point));
+    logarithms.push_back(0.5 * (kFreedom + 4.0) *
+                         std::log1p(point.squaredNorm() / (kFreedom - 2.0)));
   }
-  const double largest = *std::max_element(exponents.begin(), exponents.end());
-  for (const double exponent : exponents) {
-    inverse_of_proposal_.push_back(std::exp(exponent - largest));
+  const double largest = *std::max_element(logarithms.begin(), logarithms.end());
+  for (const double logarithm : logarithms) {
+    inverse_of_proposal_.push_back(std::exp(logarithm - largest));
   }
 }
 

@@ -16,8 +16,8 @@ struct PosteriorMoments {
   double effective_samples = 0.0;
 };
 
-// Population Monte Carlo with quasi-random normal points: the first round from a broad normal
-// around the present state, each further one from the moments of the one before. Clock differences
+// Population Monte Carlo with quasi-random points: the first round from a broad density around the
+// present state, each further one from the moments of the one before. Clock differences
 // are held at the state. Repeatable: the points are always the same.
 class PosteriorSampling {
  public:
@@ -36,7 +36,7 @@ class PosteriorSampling {
   PosteriorMoments Round(const PointProblem& problem, const Eigen::Vector4d& mean,
                          const Eigen::Matrix4d& covariance);
 
-  WeightedSamples samples_;                  // standard normal points
+  WeightedSamples samples_;                  // of Student's t, of unit covariance
   std::vector<double> inverse_of_proposal_;  // one over their density, the largest being 1
   std::vector<DensityTable> tables_;
   std::vector<Line> lines_;
