@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -52,12 +53,20 @@ struct BuildingPart {
   std::vector<Eigen::Vector3d> corners_in_enu_m;
 };
 
-// A map opened for reading. One thread at a time.
+struct MapFile;
+
+// A map opened for reading. One thread at a time. Every value is checked where it is read: finite,
+// within 100 km of the origin, covariances positive semidefinite. The file is mapped into memory,
+// so nobody may overwrite it in place; a file put in its stead and FeatureMapWriter do no harm.
+// When a writer has committed, all calls fail until the map is opened again.
 class FeatureMap {
  public:
   // Reads the header and checks it; no time that grows with the map. Errors name the file and say
   // what it is instead: not a map, of a newer version, cut short, damaged.
   static Result<std::unique_ptr<FeatureMap>> Open(const std::string& path);
+  // The same for a file that was read into memory; errors call it by the name.
+  static Result<std::unique_ptr<FeatureMap>> OpenBytes(std::string name,
+                                                       std::vector<std::uint8_t> bytes);
   ~FeatureMap();
   FeatureMap(const FeatureMap&) = delete;
   FeatureMap& operator=(const FeatureMap&) = delete;
@@ -74,35 +83,25 @@ class FeatureMap {
   Result<std::vector<DatabaseImage>> Images() const;
   Result<std::vector<BuildingPart>> BuildingParts() const;
 
-  // The largest id of a landmark plus one.
+  // The largest id of a landmark plus one, at most 2^26.
   std::uint32_t landmark_id_limit() const;
 
-  // Calls visit(list, view) for each list asked for that exists. The views are valid during the
-  // call only. Stops at a damaged list with an error that names it.
-  template <typename Visit>
-  Status VisitLists(std::span<const int> lists, Visit&& visit) const {
-    for (const int list : lists) {
-      Result<std::span<const std::uint8_t>> bytes = ListBytes(list);
-      if (!bytes) return bytes.error();
-      if (bytes->empty()) continue;
-      Result<DescriptorListView> view = DescriptorListView::Parse(info().descriptor_kind, *bytes);
-      if (!view) return InList(list, view.error());
-      visit(list, *view);
-    }
-    return {};
-  }
+  // Calls visit for each list asked for that exists, once for each of its parts: long lists are
+  // stored in several, and a list's parts come one after another. The views are valid during the
+  // call only, and the map must not be used in it. Ids in a view may be any number. Stops at a
+  // damaged list with an error that names it.
+  using ListVisitor = std::function<void(int list, const DescriptorListView& view)>;
+  Status VisitLists(std::span<const int> lists, const ListVisitor& visit) const;
 
   // Reads everything there is and checks every value: the first things wrong, at most limit, or
   // none.
   std::vector<Error> Check(std::size_t limit) const;
 
- private:
   struct Database;
-  explicit FeatureMap(std::unique_ptr<Database> database);
-  // Where the list lies in the mapped file; empty if there is none. Valid until the next call.
-  Result<std::span<const std::uint8_t>> ListBytes(int list) const;
-  Error InList(int list, const Error& error) const;
 
+ private:
+  explicit FeatureMap(std::unique_ptr<Database> database);
+  static Result<std::unique_ptr<FeatureMap>> Finish(Result<MapFile> file);
   std::unique_ptr<Database> database_;
 };
 

@@ -24,7 +24,8 @@ class FeatureMapWriter {
   FeatureMapWriter(const FeatureMapWriter&) = delete;
   FeatureMapWriter& operator=(const FeatureMapWriter&) = delete;
 
-  // Ids are the caller's, unique, at most 2^31 - 1. Error if the covariance is not positive
+  // Ids are the caller's and unique; of landmarks at most 2^26 - 1, because who looks up landmarks
+  // keeps tables by id, of others at most 2^31 - 1. Error if the covariance is not positive
   // semidefinite or a value is absurd: a map holds what lies within 100 km of its origin.
   Status AddLandmark(const Landmark& landmark);
   Status AddImage(const DatabaseImage& image);
@@ -39,11 +40,13 @@ class FeatureMapWriter {
   Status RemoveImage(std::uint32_t image_id);
   Status RemoveLandmarks(std::span<const std::uint32_t> ids);
 
-  // Learns the look-up index anew from what the map holds now. Commit does this by itself for a new
-  // map, and when the map has grown more than fourfold since; otherwise new descriptors join the
-  // lists there are.
+  // Has Commit learn the look-up index anew from all the map holds then. Commit does this by itself
+  // for a new map, and when the map has grown more than fourfold since; otherwise new descriptors
+  // join the lists there are.
   Status Reindex(std::uint64_t seed);
 
+  // Error, and nothing lost, if a landmark is missing or a reader is at work just then: mend that
+  // and try again. After any other error the map is as it was and this writer is of no more use.
   Status Commit();
 
  private:
