@@ -29,7 +29,9 @@ enum class PoseVerdict : std::uint8_t {
 std::string_view NameOf(PoseVerdict verdict);
 
 struct ResectionOptions {
-  double inlier_threshold_px = 5.0;  // times a sight's own sigma: beyond it, a sight is mistaken
+  // Times a sight's own sigma: what agrees while a pose is sought. Once it is found, the noise of
+  // the sights sets what is mistaken.
+  double inlier_threshold_px = 5.0;
   std::uint64_t seed = 1;
   int most_samples = 100'000;
   double wanted_confidence = 0.9999;  // that a better pose was not missed
@@ -43,10 +45,13 @@ struct ResectedPose {
   // Of the camera's centre (east, north, up, in m2) and then of small rotations of the camera about
   // east, north and up (rad2): enu_from_camera = exp(rotation) * estimate.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  std::optional<Rigid3> alternative;          // camera_from_enu, when ambiguous
-  double noise_px = 0.0;                      // of a sight with pixel_sigma_px 1, estimated
-  std::vector<std::uint8_t> is_inlier;        // one for each sight
-  std::vector<Eigen::Vector2d> residuals_px;  // seen minus predicted, one for each sight
+  // The same were the lens known exactly.
+  Eigen::Matrix<double, 6, 6> covariance_given_lens = Eigen::Matrix<double, 6, 6>::Zero();
+  std::optional<Rigid3> alternative;    // camera_from_enu, when ambiguous
+  double noise_px = 0.0;                // of a sight with pixel_sigma_px 1, estimated
+  std::vector<std::uint8_t> is_inlier;  // one for each sight
+  // Seen minus predicted, one for each sight; not a number where the lens does not image it.
+  std::vector<Eigen::Vector2d> residuals_px;
   int inliers = 0;
   // Decimal logarithm of how often random sights would agree so well; -3 is once in a thousand.
   double log10_chance = 0.0;

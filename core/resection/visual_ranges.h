@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <span>
 #include <vector>
 
+#include "core/camera/lens.h"
 #include "core/resection/resection.h"
 #include "core/resection/sights.h"
 
@@ -19,18 +21,30 @@ struct RangeVarianceModel {
 
 struct VisualRange {
   std::size_t sight = 0;  // index into the sights
-  double range_m = 0.0;
-  double sigma_m = 0.0;  // of this range alone, from the pose's covariance
+  double range_m = 0.0;   // from the camera's estimated centre to the landmark as mapped
+  double sigma_m = 0.0;   // of this range alone, against the true distance of camera and landmark
+  Eigen::Vector3d direction_in_enu = Eigen::Vector3d::Zero();  // unit, from the camera
 };
 
 struct VisualRanges {
   std::vector<VisualRange> ranges;  // of the inliers
   // The full covariance of the ranges: they all come from one pose, so they share its errors.
+  //
+  // Against the distances of the camera to the landmarks as they truly stand. Where the mapped
+  // coordinates are to be held fixed instead, the landmarks' errors drop out of what is left, and
+  // the covariance of ranges i and j is direction_i' C direction_j, with C the pose's covariance of
+  // the centre: of rank three, all ranges together say what the centre says.
   Eigen::MatrixXd covariance_m2;
   RangeVarianceModel model;  // fitted to the sigmas of these ranges by least squares
 };
 
-// No ranges if the pose is not one to use.
-VisualRanges VisualRangesFrom(const ResectedPose& pose, std::span<const LandmarkSight> sights);
+struct VisualRangeOptions {
+  // The covariance grows with their square. Of more inliers, the best by quality are given.
+  std::size_t most_ranges = 500;
+};
+
+// No ranges if the pose is not one to use. sights and lens: those of the resection.
+VisualRanges VisualRangesFrom(const ResectedPose& pose, std::span<const LandmarkSight> sights,
+                              const Lens& lens, const VisualRangeOptions& options = {});
 
 }  // namespace lodemark
