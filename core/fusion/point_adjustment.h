@@ -56,7 +56,7 @@ struct PointEstimate {
   double vdop = 0.0;
   double pdop = 0.0;
   double tdop = 0.0;
-  double protection_level_m = 0.0;
+  double protection_level_m = 0.0;  // 0 where no redundancy would show a fault; likewise:
   double vertical_protection_level_m = 0.0;
   int used = 0;
   int redundancy = 0;

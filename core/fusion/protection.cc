@@ -10,6 +10,12 @@
 namespace lodemark {
 namespace {
 
+// Share of a row's information that is not its own alone, below which its fault cannot be seen.
+constexpr double kUntestable = 1e-3;
+
+// Metres of position a metre of a range, below which a fault is none of the position's.
+constexpr double kNoInfluence = 1e-3;
+
 // Larger sigma of the horizontal part of a covariance.
 double HorizontalSigma(const Eigen::Matrix3d& covariance_m2) {
   const double mean = 0.5 * (covariance_m2(0, 0) + covariance_m2(1, 1));
@@ -33,6 +39,8 @@ ProtectionLevels SeparationLevels(const PointProblem& problem, const PointMatrix
   ProtectionLevels levels;
   levels.horizontal_m = quantile * HorizontalSigma(covariance_m2);
   levels.vertical_m = quantile * std::sqrt(covariance_m2(2, 2));
+  bool seen_horizontal = true;
+  bool seen_vertical = true;
   for (std::size_t i = 0; i < problem.rows().size(); ++i) {
     if (!(weights[i] > 0.0)) continue;
     const PointProblem::Row& row = problem.rows()[i];
@@ -40,7 +48,13 @@ ProtectionLevels SeparationLevels(const PointProblem& problem, const PointMatrix
     const PointVector gain = factor.solve(slope);
     // What stays of the row's own information when the others are told without it.
     const double left = 1.0 - weights[i] * slope.dot(gain);
-    if (left < 1e-3) continue;  // the others do not fix the position: no test of this row
+    if (left < kUntestable) {
+      // The others do not fix what the row tells: no residual would show its fault. One that finds
+      // its own clock and nothing else does no harm.
+      if (weights[i] * gain.head<2>().norm() > kNoInfluence) seen_horizontal = false;
+      if (weights[i] * std::abs(gain[2]) > kNoInfluence) seen_vertical = false;
+      continue;
+    }
     const Eigen::Vector3d shift_m = gain.head<3>() * (weights[i] * problem.Residual(row) / left);
     const Eigen::Matrix3d without_m2 =
         covariance_m2 + weights[i] / left * gain.head<3>() * gain.head<3>().transpose();
@@ -49,6 +63,8 @@ ProtectionLevels SeparationLevels(const PointProblem& problem, const PointMatrix
     levels.vertical_m =
         std::max(levels.vertical_m, std::abs(shift_m.z()) + quantile * std::sqrt(without_m2(2, 2)));
   }
+  if (!seen_horizontal) levels.horizontal_m = 0.0;
+  if (!seen_vertical) levels.vertical_m = 0.0;
   return levels;
 }
 

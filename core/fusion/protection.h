@@ -9,6 +9,8 @@
 
 namespace lodemark {
 
+// 0 where none can be stated: the fault of a single range could move the position that way and no
+// other range would contradict.
 struct ProtectionLevels {
   double horizontal_m = 0.0;
   double vertical_m = 0.0;

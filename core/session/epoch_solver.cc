@@ -135,8 +135,12 @@ void EpochSolver::FillPosition(SessionEstimate* estimate) const {
   estimate->accuracy_m =
       RadiusOfProbability(estimate->covariance_enu_m2.topLeftCorner<2, 2>(), 0.68);
   estimate->vertical_accuracy_m = kHalfWidth68 * std::sqrt(estimate->covariance_enu_m2(2, 2));
-  estimate->protection_level_m = point_.protection_level_m + kCommonHorizontal_m;
-  estimate->vertical_protection_level_m = point_.vertical_protection_level_m + kCommonVertical_m;
+  if (point_.protection_level_m > 0.0) {
+    estimate->protection_level_m = point_.protection_level_m + kCommonHorizontal_m;
+  }
+  if (point_.vertical_protection_level_m > 0.0) {
+    estimate->vertical_protection_level_m = point_.vertical_protection_level_m + kCommonVertical_m;
+  }
   estimate->clock_bias_m = point_.clock_m;
   estimate->hdop = point_.hdop;
   estimate->vdop = point_.vdop;

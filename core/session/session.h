@@ -74,7 +74,7 @@ struct SessionEstimate {
   double accuracy_m = 0.0;           // radius that holds the horizontal truth 68 % of the time
   double vertical_accuracy_m = 0.0;  // half-width that holds the height 68 % of the time
   double speed_accuracy_mps = 0.0;
-  double protection_level_m = 0.0;  // horizontal; 0 if none could be computed
+  double protection_level_m = 0.0;  // horizontal; 0 where a single fault could go unseen
   double vertical_protection_level_m = 0.0;
   double clock_bias_m = 0.0;  // receiver clock minus GPS time, times c
   double clock_drift_mps = 0.0;

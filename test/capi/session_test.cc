@@ -196,6 +196,26 @@ TEST_F(SessionTest, SaysThatThreeSatellitesAreTooFew) {
   EXPECT_EQ(estimate_.outcome, LODEMARK_OUTCOME_TOO_FEW);
 }
 
+TEST_F(SessionTest, StatesProtectionLevelsOnlyWhereAFaultWouldBeSeen) {
+  ASSERT_EQ(PushNavigation(), LODEMARK_OK);
+  constexpr std::uint32_t kLevels =
+      LODEMARK_ESTIMATE_HAS_PROTECTION_LEVEL | LODEMARK_ESTIMATE_HAS_VERTICAL_PROTECTION_LEVEL;
+  phone_.Measure(kStart_gps_ns);
+  ASSERT_EQ(PushPhone(), LODEMARK_OK);
+  ASSERT_EQ(lodemark_session_process(session_), LODEMARK_OK);
+  ASSERT_EQ(Estimate(), LODEMARK_OK);
+  EXPECT_EQ(estimate_.present & kLevels, kLevels);
+
+  phone_.Measure(kStart_gps_ns + 1'000'000'000);
+  phone_.measurements.resize(4);
+  ASSERT_EQ(PushPhone(), LODEMARK_OK);
+  ASSERT_EQ(lodemark_session_process(session_), LODEMARK_OK);
+  ASSERT_EQ(Estimate(), LODEMARK_OK);
+  EXPECT_EQ(estimate_.present & kLevels, 0u);
+  EXPECT_EQ(estimate_.protection_level_m, 0.0);
+  EXPECT_EQ(estimate_.vertical_protection_level_m, 0.0);
+}
+
 TEST_F(SessionTest, AsksToProcessWhenTheQueueIsFull) {
   lodemark_session_options options = WithoutAtmosphere();
   options.queue_capacity = 2;

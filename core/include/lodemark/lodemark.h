@@ -477,7 +477,8 @@ typedef struct lodemark_estimate {
   double velocity_covariance_enu_m2ps2[9];
   double speed_accuracy_mps;
   double clock_drift_mps;
-  /* HAS_PROTECTION_LEVEL and HAS_VERTICAL_PROTECTION_LEVEL: */
+  /* HAS_PROTECTION_LEVEL and HAS_VERTICAL_PROTECTION_LEVEL: absent where nothing is redundant, so
+   * that the fault of a single range could go unseen. */
   double protection_level_m; /* horizontal */
   double vertical_protection_level_m;
 } lodemark_estimate;

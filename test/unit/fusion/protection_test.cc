@@ -176,5 +176,39 @@ TEST(SeparationLevels, GrowWithResidualSpreadAndSmallerRisk) {
   EXPECT_GT(Linearised(scene).Levels().horizontal_m, clean.horizontal_m + 0.5);
 }
 
+TEST(SeparationLevels, AreNoneWhereTheFaultOfOneRangeCouldNotBeSeen) {
+  RangeScene scene;
+  scene.AddSky(4);
+  EXPECT_EQ(Linearised(scene).Levels().horizontal_m, 0.0);
+  EXPECT_EQ(Linearised(scene).Levels().vertical_m, 0.0);
+  scene.AddSatellite(77.0, 33.0);
+  EXPECT_GT(Linearised(scene).Levels().horizontal_m, 0.0);
+  EXPECT_GT(Linearised(scene).Levels().vertical_m, 0.0);
+}
+
+TEST(SeparationLevels, AreNotDeniedByARangeThatFindsItsOwnClockOnly) {
+  RangeScene scene;
+  scene.AddSky(7);
+  const ProtectionLevels without = Linearised(scene).Levels();
+  scene.AddSatellite(200.0, 50.0, 1, 55.0);  // of a system whose clock nobody knows
+  const ProtectionLevels with = Linearised(scene).Levels();
+  EXPECT_NEAR(with.horizontal_m, without.horizontal_m, 0.02 * without.horizontal_m);
+  EXPECT_NEAR(with.vertical_m, without.vertical_m, 0.02 * without.vertical_m);
+}
+
+// East and north by four landmarks on the horizon, the height by one alone overhead.
+TEST(SeparationLevels, AreStatedForTheDirectionsThatAreChecked) {
+  constexpr double kFar_m = 1e6;
+  RangeScene scene;
+  for (const double sign : {-1.0, 1.0}) {
+    scene.AddPoint({sign * kFar_m, 0.0, 0.0}, kNoClock, 0.0, {1.0, 0.0, 30.0});
+    scene.AddPoint({0.0, sign * kFar_m, 0.0}, kNoClock, 0.0, {1.0, 0.0, 30.0});
+  }
+  scene.AddPoint({0.0, 0.0, kFar_m}, kNoClock, 0.0, {1.0, 0.0, 30.0});
+  const ProtectionLevels levels = Linearised(scene).Levels();
+  EXPECT_GT(levels.horizontal_m, 0.0);
+  EXPECT_EQ(levels.vertical_m, 0.0);
+}
+
 }  // namespace
 }  // namespace lodemark

@@ -117,6 +117,19 @@ TEST(SessionFix, HardlyMovesForOneLateSatellite) {
   }
 }
 
+TEST(SessionFix, StatesNoProtectionLevelWithoutRedundancy) {
+  const SessionScene scene({kSceneGps});
+  for (const bool redundant : {false, true}) {
+    const std::unique_ptr<Session> session = scene.Open();
+    ObservationEpoch epoch = scene.Epoch(0.0);
+    if (!redundant) epoch.signals.resize(4);
+    const SessionEstimate& estimate = ProcessEpoch(session.get(), epoch);
+    ASSERT_EQ(estimate.status, EstimateStatus::kFix);
+    EXPECT_EQ(estimate.protection_level_m > 0.0, redundant);
+    EXPECT_EQ(estimate.vertical_protection_level_m > 0.0, redundant);
+  }
+}
+
 TEST(SessionFix, CountsASatelliteWithTwoSignalsOnce) {
   const SessionScene scene({kSceneGps});
   const std::unique_ptr<Session> session = scene.Open();
