@@ -1,11 +1,14 @@
-// lodemark log convert: GnssLogger text and RINEX of any version to RINEX 3.04.
+// lodemark log convert: GnssLogger text and RINEX of any version to RINEX 3.04. The satellites'
+// messages that a log holds become a navigation file beside the observations.
 #include <algorithm>
 #include <ctime>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/gnss/android_observables.h"
+#include "core/gnss/navigation_message.h"
 #include "core/logs/gnss_logger.h"
 #include "core/logs/recording.h"
 #include "core/logs/rinex_navigation.h"
@@ -53,7 +56,12 @@ class EpochSource {
   virtual Status status() const = 0;
   virtual double progress() const = 0;
   virtual RinexObservationHeader header() const = 0;
+  // What the satellites' messages between the epochs so far amount to.
+  virtual std::span<const NavigationRecord> navigation() const { return {}; }
 };
+
+// Messages that wait for the first epoch with a GPS time; a phone gets one or two in a second.
+constexpr std::size_t kMostWaitingMessages = 10'000;
 
 class LoggerSource : public EpochSource {
  public:
@@ -61,11 +69,18 @@ class LoggerSource : public EpochSource {
 
   bool Next(ObservationEpoch* epoch) override {
     while (reader_.Next(&record_)) {
+      const auto* message = std::get_if<LoggedNavigationMessage>(&record_);
+      if (message != nullptr && waiting_.size() < kMostWaitingMessages) {
+        waiting_.push_back(*message);
+      }
       const auto* raw = std::get_if<AndroidEpoch>(&record_);
-      if (raw != nullptr && observables_.Convert(*raw, epoch, &outcomes_)) return true;
+      if (raw == nullptr || !observables_.Convert(*raw, epoch, &outcomes_)) continue;
+      Decode(epoch->time_gps_ns);
+      return true;
     }
     return false;
   }
+  std::span<const NavigationRecord> navigation() const override { return navigation_; }
   Status status() const override { return reader_.status(); }
   double progress() const override { return reader_.progress(); }
   RinexObservationHeader header() const override {
@@ -76,8 +91,19 @@ class LoggerSource : public EpochSource {
   }
 
  private:
+  // Messages are as old as the epoch after them, to a second or two.
+  void Decode(std::int64_t received_gps_ns) {
+    for (const LoggedNavigationMessage& message : waiting_) {
+      decoder_.Push(message.type, message.svid, message.bytes, received_gps_ns, &navigation_);
+    }
+    waiting_.clear();
+  }
+
   GnssLoggerReader reader_;
   AndroidObservables observables_;
+  NavigationMessageDecoder decoder_;
+  std::vector<LoggedNavigationMessage> waiting_;
+  std::vector<NavigationRecord> navigation_;
   GnssLoggerRecord record_;
   std::vector<RawOutcome> outcomes_;
 };
@@ -106,10 +132,28 @@ Result<std::unique_ptr<EpochSource>> OpenSource(const std::string& path, FileKin
   return std::unique_ptr<EpochSource>(std::make_unique<RinexSource>(std::move(reader).value()));
 }
 
+Status WriteNavigation(std::span<const NavigationRecord> records, const std::string& output) {
+  const CalendarTime now = Now();
+  RinexNavigationWriterOptions options;
+  options.program = "lodemark " + VersionText();
+  options.date = Format("%04d%02d%02d %02d%02d%02d UTC", now.year, now.month, now.day, now.hour,
+                        now.minute, static_cast<int>(now.second));
+  const RinexNavigationFile file = WriteRinexNavigation(records, options);
+  const Status written = WriteFileWhole(output, file.text);
+  if (!written.ok()) return written;
+  PrintResult(output + "  (" + Counted(file.records_written, "record") + ")\n");
+  if (file.records_left_out > 0) {
+    PrintMessage(output + ": " + GroupDigits(file.records_left_out) +
+                 " records have no place in RINEX 3.04 and were left out");
+  }
+  return {};
+}
+
 // Two passes: the header names every type that occurs, so the file is read once before it is
-// written.
+// written. navigation: where the messages of a log go, if it holds any.
 Status ConvertObservations(const std::string& input, FileKind kind, const std::string& output,
-                           ProgressBar* progress) {
+                           const std::string& navigation) {
+  ProgressBar progress("Converting", StderrIsTerminal());
   RinexObservationContents contents;
   ObservationEpoch epoch;
   std::int64_t epochs = 0;
@@ -118,7 +162,7 @@ Status ConvertObservations(const std::string& input, FileKind kind, const std::s
   while ((*first)->Next(&epoch)) {
     contents.Add(epoch);
     ++epochs;
-    progress->Update(0.5 * (*first)->progress());
+    progress.Update(0.5 * (*first)->progress());
   }
   const Status read = (*first)->status();
   if (!read.ok()) return read;
@@ -146,19 +190,20 @@ Status ConvertObservations(const std::string& input, FileKind kind, const std::s
   if (!second) return second.error();
   while ((*second)->Next(&epoch)) {
     writer.Write(epoch);
-    progress->Update(0.5 + 0.5 * (*second)->progress());
+    progress.Update(0.5 + 0.5 * (*second)->progress());
   }
   writer.Finish();
   if (!(*second)->status().ok()) return (*second)->status();
   const Status finished = file.Finish();
   if (!finished.ok()) return finished;
-  progress->Finish();
+  progress.Finish();
   PrintResult(output + "  (" + Counted(epochs, "epoch") + ")\n");
   if (writer.values_left_out() > 0) {
     PrintMessage(output + ": " + GroupDigits(writer.values_left_out()) +
                  " values do not fit into RINEX 3.04 and were left out");
   }
-  return {};
+  const std::span<const NavigationRecord> records = (*second)->navigation();
+  return records.empty() ? Status() : WriteNavigation(records, navigation);
 }
 
 Status ConvertNavigation(const std::string& input, const std::string& output) {
@@ -170,20 +215,7 @@ Status ConvertNavigation(const std::string& input, const std::string& output) {
   if (records.empty()) {
     return Error{ErrorCode::kBadData, input + ": holds no navigation record to convert"};
   }
-  const CalendarTime now = Now();
-  RinexNavigationWriterOptions options;
-  options.program = "lodemark " + VersionText();
-  options.date = Format("%04d%02d%02d %02d%02d%02d UTC", now.year, now.month, now.day, now.hour,
-                        now.minute, static_cast<int>(now.second));
-  const RinexNavigationFile file = WriteRinexNavigation(records, options);
-  const Status written = WriteFileWhole(output, file.text);
-  if (!written.ok()) return written;
-  PrintResult(output + "  (" + Counted(file.records_written, "record") + ")\n");
-  if (file.records_left_out > 0) {
-    PrintMessage(output + ": " + GroupDigits(file.records_left_out) +
-                 " records have no place in RINEX 3.04 and were left out");
-  }
-  return {};
+  return WriteNavigation(records, output);
 }
 
 Status ConvertFile(const std::string& input, const std::string& folder) {
@@ -198,8 +230,10 @@ Status ConvertFile(const std::string& input, const std::string& folder) {
   const Status other = CheckNotTheInput(input, output);
   if (!other.ok()) return other;
   if (navigation) return ConvertNavigation(input, output);
-  ProgressBar progress("Converting", StderrIsTerminal());
-  return ConvertObservations(input, *kind, output, &progress);
+  const std::string messages = OutputPath(folder, input, ".nav");
+  const Status distinct = CheckNotTheInput(input, messages);
+  if (!distinct.ok()) return distinct;
+  return ConvertObservations(input, *kind, output, messages);
 }
 
 }  // namespace
