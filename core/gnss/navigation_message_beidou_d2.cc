@@ -11,9 +11,6 @@
 namespace lodemark {
 namespace {
 
-constexpr std::uint64_t kPreamble = 0x712;
-constexpr std::int64_t kFirstWeek_ns = 1356 * kWeek_ns;  // 2006-01-01 as weeks since 1980
-
 // A frame has one page of subframe 1; its subframes share the frame's second of the week (5.3.2).
 constexpr std::int64_t kFrame_s = 3;
 
@@ -48,10 +45,6 @@ double Signed(const D2Assembly::Pages& pages, std::initializer_list<Part> parts)
   return static_cast<double>(TwosComplement(field.bits, field.count));
 }
 
-std::int64_t SecondOfWeek(const BeidouSubframe& s) {
-  return static_cast<std::int64_t>(UnsignedBits(s, 18, 8) << 12 | UnsignedBits(s, 30, 12));
-}
-
 std::int64_t TimeOfWeek(const D2Assembly::Pages& pages, std::initializer_list<Part> parts,
                         std::int64_t near_ns) {
   const auto units = static_cast<std::int64_t>(Join(pages, parts).bits);
@@ -64,7 +57,7 @@ void ReadClock(const D2Assembly::Pages& p, std::int64_t near_ns, std::int64_t* t
   e->health = static_cast<std::int32_t>(Join(p, {{1, 47, 1}}).bits);
   e->healthy = IsHealthy(System::kBeidou, e->type, e->health);
   e->issue_of_clock = static_cast<std::int32_t>(Join(p, {{1, 48, 5}}).bits);
-  e->accuracy_m = UserRangeAccuracy(static_cast<int>(Join(p, {{1, 61, 4}}).bits)).value_or(8192.0);
+  e->accuracy_m = BeidouAccuracy(Join(p, {{1, 61, 4}}).bits);
   *toc_ns = TimeOfWeek(p, {{1, 78, 5}, {1, 91, 12}}, near_ns);
   e->group_delays.tgd1_s = Signed(p, {{1, 103, 10}}) * 1e-10;
   e->group_delays.tgd2_s = Signed(p, {{1, 121, 10}}) * 1e-10;
@@ -113,17 +106,13 @@ KlobucharParameters ReadIonosphere(const D2Assembly::Pages& p) {
 MessageVerdict D2Assembly::Push(SatelliteId satellite, std::span<const std::uint8_t> bytes,
                                 std::int64_t received_gps_ns,
                                 std::vector<NavigationRecord>* records) {
-  constexpr std::size_t kBytes = 40;
-  if (bytes.size() < kBytes) return MessageVerdict::kMalformed;
-  const std::optional<BeidouSubframe> subframe = CheckBeidouSubframe(bytes);
-  if (!subframe) return MessageVerdict::kBadParity;
-  if (UnsignedBits(*subframe, 0, 11) != kPreamble) return MessageVerdict::kMalformed;
-  const std::uint64_t id = UnsignedBits(*subframe, 15, 3);
-  if (id < 1 || id > 5 || SecondOfWeek(*subframe) >= 604'800) return MessageVerdict::kMalformed;
-  if (id > 1) return MessageVerdict::kUnused;
-  const std::uint64_t page = UnsignedBits(*subframe, 42, 4);
+  BeidouSubframe subframe;
+  const MessageVerdict verdict = ReadBeidouSubframe(bytes, &subframe);
+  if (verdict != MessageVerdict::kTaken) return verdict;
+  if (BeidouSubframeNumber(subframe) > 1) return MessageVerdict::kUnused;
+  const std::uint64_t page = UnsignedBits(subframe, 42, 4);
   if (page < 1 || page > kPages) return MessageVerdict::kMalformed;
-  pages_[page - 1] = *subframe;
+  pages_[page - 1] = subframe;
   if (IsComplete()) GiveEphemeris(satellite, received_gps_ns, records);
   return MessageVerdict::kTaken;
 }
@@ -135,9 +124,9 @@ bool D2Assembly::IsComplete() const {
                    [](const auto& page) { return page.has_value(); })) {
     return false;
   }
-  const std::int64_t sent_s = SecondOfWeek(*pages_[0]);
+  const std::int64_t sent_s = BeidouSecondOfWeek(*pages_[0]);
   for (std::size_t i = 1; i < kPages; ++i) {
-    const std::int64_t later_s = FloorModulo(SecondOfWeek(*pages_[i]) - sent_s, 604'800);
+    const std::int64_t later_s = FloorModulo(BeidouSecondOfWeek(*pages_[i]) - sent_s, 604'800);
     if (later_s != static_cast<std::int64_t>(i) * kFrame_s) return false;
   }
   return true;
@@ -146,28 +135,14 @@ bool D2Assembly::IsComplete() const {
 void D2Assembly::GiveEphemeris(SatelliteId satellite, std::int64_t received_gps_ns,
                                std::vector<NavigationRecord>* records) {
   const auto week = static_cast<std::int64_t>(Join(pages_, {{1, 65, 13}}).bits);
-  const std::int64_t near_ns = ScaleFromGps(received_gps_ns, TimeScale::kBeidou);
-  const std::int64_t sent_ns =
-      NearestCongruent(kFirstWeek_ns + week * kWeek_ns + SecondOfWeek(*pages_[0]) * kSecond_ns,
-                       8192 * kWeek_ns, near_ns);
   KeplerEphemeris e;
   e.satellite = satellite;
   e.type = MessageType::kD2;
-  e.transmitted_gps_ns = GpsFromScale(sent_ns, TimeScale::kBeidou);
-  std::int64_t toc_ns = 0;
-  std::int64_t toe_ns = 0;
-  ReadClock(pages_, sent_ns, &toc_ns, &e);
-  ReadOrbit(pages_, sent_ns, &toe_ns, &e);
-  e.toc_gps_ns = GpsFromScale(toc_ns, TimeScale::kBeidou);
-  e.toe_gps_ns = GpsFromScale(toe_ns, TimeScale::kBeidou);
-  const bool known = e.toe_gps_ns == given_toe_gps_ns_ && e.toc_gps_ns == given_toc_gps_ns_ &&
-                     e.health == given_health_;
-  if (known || !ImplausibleElement(e).empty()) return;
-  given_toe_gps_ns_ = e.toe_gps_ns;
-  given_toc_gps_ns_ = e.toc_gps_ns;
-  given_health_ = e.health;
-  records->push_back(e);
-  records->push_back(IonosphereMessage{satellite, e.transmitted_gps_ns, ReadIonosphere(pages_)});
+  BeidouSetTimes times;
+  times.sent_ns = BeidouTransmission(week, BeidouSecondOfWeek(*pages_[0]), received_gps_ns);
+  ReadClock(pages_, times.sent_ns, &times.toc_ns, &e);
+  ReadOrbit(pages_, times.sent_ns, &times.toe_ns, &e);
+  sets_.Give(e, times, ReadIonosphere(pages_), records);
 }
 
 }  // namespace lodemark

@@ -10,7 +10,7 @@
 
 #include "core/gnss/ephemeris.h"
 #include "core/gnss/navigation_message.h"
-#include "core/gnss/navigation_message_beidou.h"
+#include "core/gnss/navigation_message_beidou_frame.h"
 
 namespace lodemark {
 
@@ -30,9 +30,7 @@ class D2Assembly {
                      std::vector<NavigationRecord>* records);
 
   Pages pages_;
-  std::int64_t given_toe_gps_ns_ = 0;
-  std::int64_t given_toc_gps_ns_ = 0;
-  std::int32_t given_health_ = -1;
+  BeidouSets sets_;
 };
 
 }  // namespace lodemark
