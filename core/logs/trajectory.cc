@@ -227,10 +227,11 @@ Result<Trajectory> ReadTrajectory(LineReader* lines, ReadReport* report) {
   }
   if (!lines->status().ok()) return lines->status().error();
   if (points.empty()) {
+    const std::string& name = lines->name();
     return Error{ErrorCode::kBadData,
-                 lines->name() + ": no row could be read; " +
-                     (report->problems.empty() ? std::string("the file has only a header")
-                                               : FormatProblem("", report->problems.front()))};
+                 (report->problems.empty() ? name + ": the file has only a header"
+                                           : FormatProblem(name, report->problems.front())) +
+                     "; no row could be read"};
   }
   return Trajectory(std::move(points));
 }
