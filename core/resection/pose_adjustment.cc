@@ -18,10 +18,11 @@ constexpr double kLeastNoise_px = 0.02;  // of what detectors give, and of round
 constexpr double kWidestGate = 2.5;      // thresholds
 
 // What is known of noise before any sight: as much as so many residual components of a fifth of the
-// threshold for the gate, of a tenth of it for the covariance. It keeps the gate of a handful of
-// sights from closing on those that happen to fit.
+// threshold for the gate, which it only widens, of a tenth of it for the covariance. It keeps the
+// gate of a handful of sights from closing on those that happen to fit.
 constexpr double kGateDegrees = 4.0;
 constexpr double kGateShare = 0.2;
+constexpr double kFewestDegrees = 6.0;
 constexpr double kCovarianceDegrees = 1.0;
 constexpr double kCovarianceShare = 0.1;
 
@@ -131,18 +132,28 @@ class Adjustment {
     const double variance =
         (degrees * adjusted_.noise_px * adjusted_.noise_px + kGateDegrees * prior_px * prior_px) /
         (degrees + kGateDegrees);
-    return std::min(std::sqrt(variance), kWidestGate * threshold_px_ / std::sqrt(kSquaredGate));
+    return std::max(std::sqrt(variance), adjusted_.noise_px);
+  }
+
+  // Squares of residuals over an estimated variance have an F distribution, whose tail for two
+  // degrees of freedom is (1 + x / n)^(-n / 2).
+  double SquaredGate() const {
+    const double degrees = std::max(degrees_, kFewestDegrees);
+    const double square = degrees * std::expm1(kSquaredGate / degrees);
+    const double widest = kWidestGate * threshold_px_ / gate_noise_px_;
+    return std::min(square, widest * widest);
   }
 
   // True if the inliers change.
   bool Gate() {
     gate_noise_px_ = GateNoise();
-    adjusted_.gate_px = gate_noise_px_ * std::sqrt(kSquaredGate);
+    squared_gate_ = SquaredGate();
+    adjusted_.gate_noise_px = gate_noise_px_;
     adjusted_.inliers = 0;
     bool changes = false;
     for (std::size_t i = 0; i < residuals_.size(); ++i) {
       const std::uint8_t inlier =
-          residuals_[i].SquareInSigmas(gate_noise_px_) < kSquaredGate ? 1 : 0;
+          residuals_[i].SquareInSigmas(gate_noise_px_) < squared_gate_ ? 1 : 0;
       changes = changes || inlier != adjusted_.is_inlier[i];
       adjusted_.is_inlier[i] = inlier;
       adjusted_.inliers += inlier;
@@ -161,7 +172,7 @@ class Adjustment {
       }
     }
     const double ratio = gate_noise_px_ / adjusted_.noise_px;
-    kept_ = KeptVariance(kSquaredGate * ratio * ratio);
+    kept_ = KeptVariance(squared_gate_ * ratio * ratio);
     degrees_ = 2.0 * kept_ * static_cast<double>(inliers.size()) - from_sights;
     if (degrees_ < 0.5) return degrees_;
     adjusted_.noise_px = NoiseFromSquares(inliers, degrees_, kLeastNoise_px, threshold_px_);
@@ -185,6 +196,7 @@ class Adjustment {
   std::vector<Residual> residuals_;
   double degrees_ = 0.0;
   double gate_noise_px_ = 0.0;
+  double squared_gate_ = kSquaredGate;
   double kept_ = 1.0;
   AdjustedPose adjusted_;
 };

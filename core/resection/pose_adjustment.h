@@ -21,8 +21,7 @@ struct AdjustedPose {
   // Of the distribution that the covariance stands for: noise_px, and the doubt that few sights
   // leave about it.
   double covariance_noise_px = 0.0;
-  double gate_px =
-      0.0;  // radius within which a sight of sigma 1 and an exact landmark is no outlier
+  double gate_noise_px = 0.0;  // no less than noise_px: what a gate should allow for
   std::vector<std::uint8_t> is_inlier;
   std::vector<Eigen::Vector2d> residuals_px;  // not a number where there is none
   int inliers = 0;

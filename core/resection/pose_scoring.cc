@@ -29,34 +29,34 @@ FlatPose Flattened(const Rigid3& pose) {
   return flat;
 }
 
-// Squared misfits of one block, each at most limit.
-inline void BlockMisfits(const SightTable& table, std::size_t first, const FlatPose& pose,
-                         float limit, float* squares) {
-  const float* const x = table.column(SightTable::kLandmark) + first;
-  const float* const y = table.column(SightTable::kLandmark + 1) + first;
-  const float* const z = table.column(SightTable::kLandmark + 2) + first;
-  const float* const bx = table.column(SightTable::kBearing) + first;
-  const float* const by = table.column(SightTable::kBearing + 1) + first;
-  const float* const bz = table.column(SightTable::kBearing + 2) + first;
-  const float* const ux = table.column(SightTable::kTangentX) + first;
-  const float* const uy = table.column(SightTable::kTangentX + 1) + first;
-  const float* const uz = table.column(SightTable::kTangentX + 2) + first;
-  const float* const vx = table.column(SightTable::kTangentY) + first;
-  const float* const vy = table.column(SightTable::kTangentY + 1) + first;
-  const float* const vz = table.column(SightTable::kTangentY + 2) + first;
-  const float* const spread = table.column(SightTable::kSpread) + first;
+using Block = Eigen::Array<float, static_cast<int>(kBlock), 1>;
+
+// Squared misfits of one block, each at most limit, as those behind the camera have it.
+inline Block BlockMisfits(const SightTable& table, std::size_t first, const FlatPose& pose,
+                          float limit) {
   constexpr float kTiny = 1e-30F;
-  for (std::size_t i = 0; i < kBlock; ++i) {
-    const float qx = pose[0] * x[i] + pose[1] * y[i] + pose[2] * z[i] + pose[9];
-    const float qy = pose[3] * x[i] + pose[4] * y[i] + pose[5] * z[i] + pose[10];
-    const float qz = pose[6] * x[i] + pose[7] * y[i] + pose[8] * z[i] + pose[11];
-    const float along = bx[i] * qx + by[i] * qy + bz[i] * qz;
-    const float u = ux[i] * qx + uy[i] * qy + uz[i] * qz;
-    const float v = vx[i] * qx + vy[i] * qy + vz[i] * qz;
-    const float square = (u * u + v * v) / (along * along + spread[i] + kTiny);
-    const float in_front = along > 0.0F ? square : limit;
-    squares[i] = in_front < limit ? in_front : limit;  // what is no number is beyond the limit
-  }
+  const auto column = [&](int which) {
+    return Eigen::Map<const Block>(table.column(which) + first);
+  };
+  const auto dot = [&](int which, const Block& x, const Block& y, const Block& z) {
+    const Block product = column(which) * x + column(which + 1) * y + column(which + 2) * z;
+    return product;
+  };
+  const auto in_camera = [&](std::size_t row) {
+    const Block coordinate = pose[3 * row] * column(SightTable::kLandmark) +
+                             pose[3 * row + 1] * column(SightTable::kLandmark + 1) +
+                             pose[3 * row + 2] * column(SightTable::kLandmark + 2) + pose[9 + row];
+    return coordinate;
+  };
+  const Block x = in_camera(0);
+  const Block y = in_camera(1);
+  const Block z = in_camera(2);
+  const Block along = dot(SightTable::kBearing, x, y, z).max(0.0F);
+  const Block u = dot(SightTable::kTangentX, x, y, z);
+  const Block v = dot(SightTable::kTangentY, x, y, z);
+  const Block squares =
+      ((u * u + v * v) / (along * along + column(SightTable::kSpread) + kTiny)).min(limit);
+  return squares;
 }
 
 struct Misfit {
@@ -94,20 +94,14 @@ PoseScore ScorePose(const SightTable& table, const Rigid3& camera_from_world, do
   const double padding =
       static_cast<double>(limit) * static_cast<double>(table.blocks() * kBlock - table.size());
   PoseScore score;
-  std::array<float, kBlock> squares;
-  std::array<float, 4> sums;
   for (std::size_t block = 0; block < table.blocks(); ++block) {
-    BlockMisfits(table, block * kBlock, pose, limit, squares.data());
-    sums.fill(0.0F);
-    int beyond = 0;
-    for (std::size_t i = 0; i < kBlock; i += 4) {
-      for (std::size_t k = 0; k < 4; ++k) {
-        sums[k] += squares[i + k];
-        beyond += squares[i + k] < limit ? 0 : 1;
-      }
+    const Block squares = BlockMisfits(table, block * kBlock, pose, limit);
+    int agreeing = 0;
+    for (std::size_t i = 0; i < kBlock; ++i) {
+      agreeing += squares.data()[i] < limit ? 1 : 0;
     }
-    score.cost += static_cast<double>((sums[0] + sums[1]) + (sums[2] + sums[3]));
-    score.agreeing += kBlock - static_cast<std::size_t>(beyond);
+    score.cost += static_cast<double>(squares.sum());
+    score.agreeing += static_cast<std::size_t>(agreeing);
     score.seen = std::min(score.seen + kBlock, table.size());
     if (score.cost > most_cost + padding || test.GivesUp(score.seen, score.agreeing)) return score;
   }

@@ -153,8 +153,16 @@ class Resection {
     Mode mode;
     mode.adjusted = AdjustPose(start, input_.sights, lens_, input_.priors,
                                options_.inlier_threshold_px, options_.intrinsics_covariance);
-    mode.log10_chance = Log10Chance(mode.adjusted.pose, input_.sights, mode.adjusted.is_inlier,
-                                    lens_, mode.adjusted.gate_px, sights_per_sample_);
+    // Few sights have a wide gate, lest a good one be lost; what chance does is judged by the plain
+    // one.
+    const double noise_px = mode.adjusted.gate_noise_px;
+    std::vector<std::uint8_t> agrees;
+    for (const double square :
+         SquaresInSigmas(mode.adjusted.pose, input_.sights, lens_, noise_px)) {
+      agrees.push_back(square < kSquaredGate ? 1 : 0);
+    }
+    mode.log10_chance = Log10Chance(mode.adjusted.pose, input_.sights, agrees, lens_,
+                                    noise_px * std::sqrt(kSquaredGate), sights_per_sample_);
     return mode;
   }
 
