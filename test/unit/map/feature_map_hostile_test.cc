@@ -3,6 +3,7 @@
 #include <sqlite3.h>
 #include <sys/stat.h>
 
+#include <cstdio>
 #include <set>
 
 #include "core/map/feature_map.h"
@@ -14,6 +15,7 @@ namespace {
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 // Changes a file past all of Lodemark's checks.
 void Change(const std::string& path, const std::string& sql) {
@@ -248,6 +250,36 @@ TEST_F(HostileMap, RefusesListsAndIndexOfAnotherMap) {
                     "' AS other; UPDATE main.descriptor_lists SET descriptors = "
                     "(SELECT descriptors FROM other.descriptor_lists LIMIT 1)");
   EXPECT_THAT(FirstFinding(), HasSubstr("map.db: descriptor_lists: list 0 part 0: "));
+}
+
+// A chain of nodes of the R*Tree, each of whose 51 boxes leads to the next and covers everything: a
+// walk through all 51^30 ways would take longer than the earth will last.
+TEST_F(HostileMap, GivesUpATreeOfPlacesWithoutEnd) {
+  const auto node = [](int depth, int child) {
+    const auto hex = [](std::uint32_t value) {
+      std::array<char, 9> digits{};
+      std::snprintf(digits.data(), digits.size(), "%08x", value);
+      return std::string(digits.data());
+    };
+    std::string bytes = hex((static_cast<std::uint32_t>(depth) << 16) | 51);
+    for (int cell = 0; cell < 51; ++cell) {
+      bytes += hex(0) + hex(static_cast<std::uint32_t>(child));
+      for (int axis = 0; axis < 3; ++axis) bytes += hex(0xc7c35000) + hex(0x47c35000);  // 100 km
+    }
+    return "x'" + bytes + "'";
+  };
+  std::string chain = "DELETE FROM landmark_places_node;";
+  for (int i = 1; i <= 31; ++i) {
+    chain += "INSERT INTO landmark_places_node VALUES (" + std::to_string(i) + ", " +
+             node(i == 1 ? 30 : 0, i + 1) + ");";
+  }
+  Change(path_, chain);
+  const auto map = FeatureMap::Open(path_);
+  ASSERT_TRUE(map.ok()) << map.error().message;
+  const auto around = (*map)->LandmarksWithin({0, 0, 0}, 10.0);
+  ASSERT_FALSE(around.ok());
+  EXPECT_THAT(around.error().message, HasSubstr("map.db: is damaged"));
+  EXPECT_THAT((*map)->Check(3), Not(IsEmpty()));
 }
 
 TEST_F(HostileMap, SaysWhenItIsCutShort) {
