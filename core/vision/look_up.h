@@ -33,7 +33,7 @@ struct LookUpOptions {
 struct LandmarkMatch {
   std::uint32_t feature = 0;  // index into Features
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  double pixel_sigma_px = 1.0;  // as its size in the image suggests
+  double pixel_sigma_px = 1.0;  // as its size suggests, and how much it looks like the landmark
   Landmark landmark;
   double ratio = 1.0;  // of the distances, nearest to second nearest: smaller is surer
 };
