@@ -86,7 +86,7 @@ class Lens {
                         std::span<Eigen::Vector3d> bearings, std::span<std::uint8_t> valid) const;
 
   // Largest angle from the optical axis that the model images one-to-one along every azimuth, in
-  // radians; pi where there is no limit.
+  // radians; pi where there is no limit. A tilted sensor may have its horizon inside.
   double field_limit_rad() const { return field_limit_rad_; }
 
  private:

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/camera/distortion_equations.h"
-#include "core/camera/sensor_tilt.h"
 
 namespace lodemark {
 
@@ -52,8 +51,8 @@ LensDistortion::LensDistortion(const DistortionTerms& terms, IdealImage ideal_im
   const DistortionTerms none;
   is_tilted_ = terms.tau_x_rad != 0.0 || terms.tau_y_rad != 0.0;
   if (is_tilted_) {
-    tilted_from_flat_ = SensorTilt(terms.tau_x_rad, terms.tau_y_rad).tilted_from_flat;
-    flat_from_tilted_ = tilted_from_flat_.inverse();
+    tilt_ = SensorTilt(terms.tau_x_rad, terms.tau_y_rad);
+    flat_from_tilted_ = tilt_.tilted_from_flat.inverse();
     tolerance_ *= 0.01;  // what is left before the tilt may grow by it
   }
   is_rational_ = terms.denominator != none.denominator;
@@ -86,7 +85,7 @@ std::optional<Eigen::Vector2d> LensDistortion::Apply(const Eigen::Vector2d& idea
     flat += Eigen::Vector2d(displacement.x, displacement.y);
   }
   if (!is_tilted_) return flat;
-  const Eigen::Vector3d tilted = tilted_from_flat_ * flat.homogeneous();
+  const Eigen::Vector3d tilted = tilt_.tilted_from_flat * flat.homogeneous();
   if (!(tilted.z() > 0.0)) return std::nullopt;
   return tilted.hnormalized();
 }
@@ -100,23 +99,22 @@ std::optional<Eigen::Vector2d> LensDistortion::Apply(const Eigen::Vector2d& idea
   FillTermDerivatives(ideal, jacobian);
 
   // The tilt, and its own derivatives; these are not zero on a flat sensor.
-  const SensorTilt tilt(terms_.tau_x_rad, terms_.tau_y_rad);
   const Eigen::Vector3d before(flat.x, flat.y, 1.0);
-  const double depth = tilt.tilted_from_flat.row(2).dot(before);
+  const double depth = tilt_.tilted_from_flat.row(2).dot(before);
   const auto image_by = [&](const Eigen::Vector3d& change) -> Eigen::Vector2d {
     return (change.head<2>() - *image * change.z()) / depth;
   };
   if (is_tilted_) {
     Eigen::Matrix2d image_by_flat;
-    image_by_flat.col(0) = image_by(tilt.tilted_from_flat.col(0));
-    image_by_flat.col(1) = image_by(tilt.tilted_from_flat.col(1));
+    image_by_flat.col(0) = image_by(tilt_.tilted_from_flat.col(0));
+    image_by_flat.col(1) = image_by(tilt_.tilted_from_flat.col(1));
     jacobian->by_ideal = (image_by_flat * jacobian->by_ideal).eval();
     jacobian->by_terms = (image_by_flat * jacobian->by_terms).eval();
   }
   jacobian->by_terms.col(static_cast<int>(DistortionTerm::kTauX)) =
-      image_by(tilt.by_tau_x * before);
+      image_by(tilt_.by_tau_x * before);
   jacobian->by_terms.col(static_cast<int>(DistortionTerm::kTauY)) =
-      image_by(tilt.by_tau_y * before);
+      image_by(tilt_.by_tau_y * before);
   return image;
 }
 

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/camera/sensor_tilt.h"
+
 namespace lodemark {
 
 // One family covers all our models. With r the distance from the axis in the ideal image x, u = r^2
@@ -129,7 +131,7 @@ class LensDistortion {
   double start_per_u_ = 0.0;             // nodes per unit of |image|^2
   double start_width_ = 0.0;             // between nodes
   std::array<StartNode, kStartIntervals + 1> start_ = {};
-  Eigen::Matrix3d tilted_from_flat_ = Eigen::Matrix3d::Identity();
+  SensorTilt tilt_ = SensorTilt(0.0, 0.0);
   Eigen::Matrix3d flat_from_tilted_ = Eigen::Matrix3d::Identity();
 };
 

@@ -118,6 +118,23 @@ void OpenCv(benchmark::State& state, const LensParameters& parameters) {
   state.counters["off"] = off / kPoints;
 }
 
+// Projection with all derivatives, as an adjustment asks for it.
+void ProjectWithDerivatives(benchmark::State& state, const LensParameters& parameters) {
+  const auto lens = Lens::Create(parameters);
+  const std::vector<Eigen::Vector2d> pixels = Pixels(parameters);
+  std::vector<Eigen::Vector3d> bearings(kPoints);
+  std::vector<std::uint8_t> valid(kPoints);
+  lens->Unproject(pixels, bearings, valid);
+  lodemark::ProjectionJacobian jacobian;
+  for (auto _ : state) {
+    for (const Eigen::Vector3d& bearing : bearings) {
+      benchmark::DoNotOptimize(lens->Project(bearing, &jacobian));
+      benchmark::DoNotOptimize(jacobian);
+    }
+  }
+  SetPointRate(state);
+}
+
 BENCHMARK_CAPTURE(Ours, radial, kRadial)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(OpenCv, radial, kRadial)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Ours, brown, kBrown)->Unit(benchmark::kMillisecond);
@@ -129,6 +146,8 @@ BENCHMARK_CAPTURE(OpenCv, rational, kRational)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Ours, fisheye, kFisheye)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(OpenCv, fisheye, kFisheye)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Ours, thin_prism, kThinPrism)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(ProjectWithDerivatives, brown, kBrown)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(ProjectWithDerivatives, fisheye, kFisheye)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 
