@@ -150,13 +150,11 @@ lodemark_status lodemark_session_push_gnss(lodemark_session* session, int64_t ti
 
     const StructArray<lodemark_gnss_measurement> array(measurements, count, "measurements");
     if (status == LODEMARK_OK) status = array.CheckCount();
-    if (status == LODEMARK_OK) epoch.measurements.resize(static_cast<std::size_t>(count));
-    lodemark_gnss_measurement stated = {};
-    for (std::int32_t i = 0; i < count && status == LODEMARK_OK; ++i) {
-      status = array.Read(i, &stated);
-      if (status != LODEMARK_OK) break;
-      status = Translate(stated, array.At(i), &epoch.measurements[static_cast<std::size_t>(i)]);
-    }
+    if (status != LODEMARK_OK) return status;
+    epoch.measurements.resize(static_cast<std::size_t>(count));
+    status = array.ForEach([&](const lodemark_gnss_measurement& from, Where where, std::size_t i) {
+      return Translate(from, where, &epoch.measurements[i]);
+    });
     if (status != LODEMARK_OK) return status;
     const Status pushed = session->engine->PushAndroidEpoch(time_ns, epoch);
     return pushed ? LODEMARK_OK : Fail(pushed.error());

@@ -120,13 +120,11 @@ lodemark_status lodemark_session_push_observations(lodemark_session* session, in
 
     const StructArray<lodemark_observation> array(observations, count, "observations");
     if (status == LODEMARK_OK) status = array.CheckCount();
-    if (status == LODEMARK_OK) to.signals.resize(static_cast<std::size_t>(count));
-    lodemark_observation stated = {};
-    for (std::int32_t i = 0; i < count && status == LODEMARK_OK; ++i) {
-      status = array.Read(i, &stated);
-      if (status != LODEMARK_OK) break;
-      status = Translate(stated, array.At(i), &to.signals[static_cast<std::size_t>(i)]);
-    }
+    if (status != LODEMARK_OK) return status;
+    to.signals.resize(static_cast<std::size_t>(count));
+    status = array.ForEach([&](const lodemark_observation& from, Where where, std::size_t i) {
+      return Translate(from, where, &to.signals[i]);
+    });
     if (status != LODEMARK_OK) return status;
     const Status pushed = session->engine->PushObservationEpoch(time_ns, to);
     return pushed ? LODEMARK_OK : Fail(pushed.error());

@@ -121,12 +121,9 @@ lodemark_status lodemark_position_solve(const lodemark_range* ranges, int32_t co
     if (status != LODEMARK_OK) return status;
 
     std::vector<RangeObservation> observations(static_cast<std::size_t>(count));
-    lodemark_range stated = {};
-    for (std::int32_t i = 0; i < count && status == LODEMARK_OK; ++i) {
-      status = array.Read(i, &stated);
-      if (status != LODEMARK_OK) break;
-      status = Translate(stated, array.At(i), &observations[static_cast<std::size_t>(i)]);
-    }
+    status = array.ForEach([&](const lodemark_range& from, Where where, std::size_t i) {
+      return Translate(from, where, &observations[i]);
+    });
     if (status != LODEMARK_OK) return status;
 
     std::vector<ObservationVerdict> verdicts;

@@ -41,6 +41,22 @@ template <>
 inline constexpr std::uint32_t kFirstSize<lodemark_satellite> = 88;
 template <>
 inline constexpr std::uint32_t kFirstSize<lodemark_event> = 288;
+template <>
+inline constexpr std::uint32_t kFirstSize<lodemark_lens> = 160;
+template <>
+inline constexpr std::uint32_t kFirstSize<lodemark_sight> = 144;
+template <>
+inline constexpr std::uint32_t kFirstSize<lodemark_view_prior> = 200;
+template <>
+inline constexpr std::uint32_t kFirstSize<lodemark_resect_options> = 2624;
+template <>
+inline constexpr std::uint32_t kFirstSize<lodemark_pose> = 496;
+template <>
+inline constexpr std::uint32_t kFirstSize<lodemark_sight_residual> = 40;
+template <>
+inline constexpr std::uint32_t kFirstSize<lodemark_map_info> = 432;
+template <>
+inline constexpr std::uint32_t kFirstSize<lodemark_query_options> = 24;
 
 // Far above the size of any struct that a later version may have: a larger one is a wild number.
 inline constexpr std::uint32_t kLargestSize = 65'536;
@@ -132,6 +148,19 @@ class StructArray {
   }
 
   Where At(std::int32_t index) const { return {name_, index}; }
+
+  // Calls translate(element, where, index) for each, until one gives another status than
+  // LODEMARK_OK. Only after CheckCount.
+  template <typename Translate>
+  lodemark_status ForEach(const Translate& translate) const {
+    T stated = {};
+    for (std::int32_t i = 0; i < count_; ++i) {
+      if (const lodemark_status status = Read(i, &stated); status != LODEMARK_OK) return status;
+      const lodemark_status status = translate(stated, At(i), static_cast<std::size_t>(i));
+      if (status != LODEMARK_OK) return status;
+    }
+    return LODEMARK_OK;
+  }
 
  private:
   const unsigned char* bytes_;

@@ -194,6 +194,258 @@ LODEMARK_API lodemark_status lodemark_position_solve(const lodemark_range* range
                                                      lodemark_solution* solution,
                                                      lodemark_range_residual* residuals);
 
+/*
+ * Camera axes: x to the right, y down, z forward. Pixel (0, 0) is the centre of the upper left
+ * pixel; x counts to the right, y down.
+ */
+
+#define LODEMARK_LENS_PINHOLE 0            /* no coefficients */
+#define LODEMARK_LENS_BROWN 1              /* k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4 tau_x tau_y */
+#define LODEMARK_LENS_FISHEYE 2            /* k1 k2 k3 k4, Kannala-Brandt */
+#define LODEMARK_LENS_THIN_PRISM_FISHEYE 3 /* k1 k2 p1 p2 k3 k4 sx1 sy1 */
+
+#define LODEMARK_LENS_COEFFICIENTS 14
+#define LODEMARK_LENS_INTRINSICS 18 /* fx fy cx cy, then the coefficients */
+
+/* A lens. Coefficients in the order of OpenCV; those the model lacks must be zero. */
+typedef struct lodemark_lens {
+  uint32_t struct_size;
+  int32_t model;
+  int32_t width_px; /* of the photographs it takes */
+  int32_t height_px;
+  double fx_px;
+  double fy_px;
+  double cx_px;
+  double cy_px;
+  double coefficients[LODEMARK_LENS_COEFFICIENTS];
+} lodemark_lens;
+
+/* Most points that one call on a lens takes. */
+#define LODEMARK_LARGEST_POINT_COUNT 16777216
+
+/*
+ * The unit directions in camera axes (x, y, z of each) that count pixels (x, y of each) look to.
+ * valid, with room for count bytes, tells which were found: 0 where the lens model images no single
+ * direction there, and then the direction is zero.
+ */
+LODEMARK_API lodemark_status lodemark_lens_unproject(const lodemark_lens* lens,
+                                                     const double* pixels_px, int32_t count,
+                                                     double* directions, uint8_t* valid);
+
+/* The pixels at which count points in camera axes (any length) appear; valid as above. */
+LODEMARK_API lodemark_status lodemark_lens_project(const lodemark_lens* lens, const double* points,
+                                                   int32_t count, double* pixels_px,
+                                                   uint8_t* valid);
+
+/*
+ * Where the pixels would be had the lens no distortion: fx, fy, cx, cy stay, the coefficients are
+ * gone. Input and output may be the same array. valid as above; 0 too for what is not in front.
+ */
+LODEMARK_API lodemark_status lodemark_lens_undistort_points(const lodemark_lens* lens,
+                                                            const double* pixels_px, int32_t count,
+                                                            double* undistorted_px, uint8_t* valid);
+
+/* Straightens photographs of one lens; what that takes is worked out once, when it is opened. */
+typedef struct lodemark_undistortion lodemark_undistortion;
+
+/*
+ * target is a pinhole lens, or NULL for the one that shows as much as it can, of the same size,
+ * without black corners. used_target, unless NULL, receives the lens of the straightened images.
+ */
+LODEMARK_API lodemark_status lodemark_undistortion_open(const lodemark_lens* lens,
+                                                        const lodemark_lens* target,
+                                                        lodemark_lens* used_target,
+                                                        lodemark_undistortion** undistortion);
+
+LODEMARK_API void lodemark_undistortion_close(lodemark_undistortion* undistortion);
+
+/*
+ * Grey, 8 bits a pixel; row y of an image begins y * stride bytes after the first. The photograph
+ * has the size of the lens, the output the size of the target lens. They must not overlap.
+ */
+LODEMARK_API lodemark_status lodemark_undistortion_apply(const lodemark_undistortion* undistortion,
+                                                         const uint8_t* pixels,
+                                                         int64_t stride_bytes, uint8_t* out,
+                                                         int64_t out_stride_bytes);
+
+/* Bits of lodemark_sight.present. */
+#define LODEMARK_SIGHT_HAS_COVARIANCE 0x1u
+#define LODEMARK_SIGHT_HAS_LANDMARK_ID 0x2u
+
+/* A landmark and where a photograph shows it. */
+typedef struct lodemark_sight {
+  uint32_t struct_size;
+  uint32_t present;
+  uint32_t landmark_id; /* HAS_LANDMARK_ID: in its map */
+  int32_t reserved;
+  double pixel_px[2];
+  double sigma_px; /* relative to the other sights, the common scale is estimated; 0: 1 */
+  double landmark_in_ecef_m[3];
+  double landmark_covariance_enu_m2[9]; /* HAS_COVARIANCE: else the landmark is exact */
+  double quality;                       /* larger is surer; only the order matters */
+} lodemark_sight;
+
+/* Bits of lodemark_view_prior.present. */
+#define LODEMARK_VIEW_HAS_POSITION 0x1u
+#define LODEMARK_VIEW_HAS_GRAVITY 0x2u
+#define LODEMARK_VIEW_HAS_HEADING 0x4u
+#define LODEMARK_VIEW_HAS_ORIENTATION 0x8u
+
+/* What is known of a camera before its photograph is looked at. All of it optional. */
+typedef struct lodemark_view_prior {
+  uint32_t struct_size;
+  uint32_t present;
+  double position_in_ecef_m[3]; /* HAS_POSITION, with its covariance, as from satellites */
+  double position_covariance_enu_m2[9];
+  double up_in_camera[3]; /* HAS_GRAVITY: what an accelerometer at rest measures, any length */
+  double up_sigma_deg;
+  double
+      heading_deg; /* HAS_HEADING: of the optical axis, clockwise from north; needs HAS_POSITION */
+  double heading_sigma_deg;
+  double camera_from_enu[4]; /* HAS_ORIENTATION: quaternion w x y z; needs HAS_POSITION */
+  double search_radius_px;   /* around where the landmarks must then appear; 0: 20 px */
+  double farthest_m;         /* landmarks beyond are not asked; 0: 1000 m */
+} lodemark_view_prior;
+
+/* Bits of lodemark_resect_options.present. */
+#define LODEMARK_RESECT_HAS_INTRINSICS_COVARIANCE 0x1u
+
+/* All zero is a good choice. */
+typedef struct lodemark_resect_options {
+  uint32_t struct_size;
+  uint32_t present;
+  double inlier_threshold_px; /* times a sight's sigma; 0: 5 */
+  uint64_t seed;              /* 0: 1 */
+  int32_t most_samples;       /* 0: 100,000 */
+  int32_t reserved;
+  /* HAS_INTRINSICS_COVARIANCE: by rows, in the order of LODEMARK_LENS_INTRINSICS. */
+  double intrinsics_covariance[LODEMARK_LENS_INTRINSICS * LODEMARK_LENS_INTRINSICS];
+} lodemark_resect_options;
+
+/* What became of a resection. The first two have a pose to use. */
+#define LODEMARK_POSE_GOOD 0
+#define LODEMARK_POSE_WEAK 1       /* the geometry holds it badly: see the covariance */
+#define LODEMARK_POSE_AMBIGUOUS 2  /* a second pose explains the sights as well */
+#define LODEMARK_POSE_TOO_FEW 3    /* fewer sights than a pose needs */
+#define LODEMARK_POSE_DEGENERATE 4 /* the landmarks determine none: all on one line */
+#define LODEMARK_POSE_NOT_HERE 5   /* no more sights agree than chance explains */
+
+/* Where a camera was and where it looked. Numbers are zero where there is no pose. */
+typedef struct lodemark_pose {
+  uint32_t struct_size;
+  int32_t verdict;
+  int32_t inliers;
+  int32_t samples; /* minimal sets tried */
+  double ecef_m[3];
+  double latitude_deg;
+  double longitude_deg;
+  double height_m;
+  double camera_from_enu[4]; /* quaternion w x y z; east, north, up at the camera's place */
+  double heading_deg;        /* of the optical axis, clockwise from north */
+  double pitch_deg;          /* of the optical axis, above the horizon */
+  double roll_deg;           /* about the optical axis, clockwise as seen from behind the camera */
+  /* By rows: east, north, up in m2; then rotations of the camera about east, north, up in deg2. */
+  double covariance[36];
+  double accuracy_m;          /* horizontal */
+  double vertical_accuracy_m; /* half-width */
+  double noise_px;            /* of a sight with sigma 1, estimated */
+  double log10_chance;        /* how often random sights would agree so well: -3 is once in 1000 */
+  double alternative_ecef_m[3]; /* of POSE_AMBIGUOUS */
+  double alternative_camera_from_enu[4];
+} lodemark_pose;
+
+/* How one sight fared, and how far its landmark is. */
+typedef struct lodemark_sight_residual {
+  uint32_t struct_size;
+  int32_t used;          /* 1 or 0 */
+  double residual_px[2]; /* seen minus predicted */
+  double range_m;        /* the visual range, of sights used */
+  double range_sigma_m;
+} lodemark_sight_residual;
+
+/*
+ * The camera's pose from count sights, many of which may be mistaken. prior and options may be
+ * NULL; of a prior, position and gravity are used. residuals, unless NULL, has room for count
+ * elements; range_covariance_m2, unless NULL, for count * count: the covariance between the visual
+ * ranges by rows, zero where a sight was not used.
+ *
+ * LODEMARK_NO_POSITION if there is no pose to use; pose->verdict says why.
+ */
+LODEMARK_API lodemark_status lodemark_pose_resect(
+    const lodemark_lens* lens, const lodemark_sight* sights, int32_t count,
+    const lodemark_view_prior* prior, const lodemark_resect_options* options, lodemark_pose* pose,
+    lodemark_sight_residual* residuals, double* range_covariance_m2);
+
+/* Map: surveyed landmarks and what they look like, in one file. */
+
+#define LODEMARK_DESCRIPTOR_ROOT_SIFT 1
+#define LODEMARK_DESCRIPTOR_ORB 2
+
+/* Read-only. One thread at a time; several sessions of one thread may share it. */
+typedef struct lodemark_map lodemark_map;
+
+/*
+ * Opens a map file, UTF-8 path, into *map; after an error *map is NULL. Takes no time that grows
+ * with the map. Any file is safe to open: what is damaged gives LODEMARK_ERROR_BAD_DATA, here or
+ * when it is met.
+ */
+LODEMARK_API lodemark_status lodemark_map_open(const char* path, lodemark_map** map);
+
+LODEMARK_API void lodemark_map_close(lodemark_map* map);
+
+typedef struct lodemark_map_info {
+  uint32_t struct_size;
+  int32_t descriptor_kind;
+  int64_t landmarks;
+  int64_t descriptors;
+  int64_t images;
+  int64_t building_parts;
+  double origin_geodetic[3]; /* of the frame its landmarks lie in */
+  double epoch_year;         /* of the coordinates, as 2024.5; 0: unknown */
+  char id[40]; /* 32 hexadecimal digits; texts are zero-terminated, UTF-8, cut to fit */
+  char datum[64];
+  char provenance[256];
+} lodemark_map_info;
+
+LODEMARK_API lodemark_status lodemark_map_read_info(const lodemark_map* map,
+                                                    lodemark_map_info* info);
+
+/* All zero is a good choice. */
+typedef struct lodemark_query_options {
+  uint32_t struct_size;
+  int32_t most_features;   /* detected in the photograph; 0: 4000 */
+  int32_t longest_side_px; /* larger photographs are scaled down to this first; 0: 1600; negative:
+                              never */
+  int32_t lists_to_visit;  /* of the map's index, for each feature; 0: as the index advises */
+  double largest_ratio;    /* nearest to second nearest landmark; 0: 0.8 */
+} lodemark_query_options;
+
+/*
+ * What of the map a photograph shows: each feature that is taken for a landmark, the surest first.
+ * The image is grey, 8 bits a pixel, of the lens's size, row y at pixels + y * stride_bytes. prior
+ * and options may be NULL; with a prior only what can be in view is asked, with HAS_ORIENTATION
+ * only where each landmark must appear. At most LODEMARK_LARGEST_COUNT sights; asking with capacity
+ * 0 does the whole work, so rather give room at once.
+ */
+LODEMARK_API lodemark_status lodemark_map_query(lodemark_map* map, const lodemark_lens* lens,
+                                                const uint8_t* pixels, int64_t stride_bytes,
+                                                const lodemark_view_prior* prior,
+                                                const lodemark_query_options* options,
+                                                lodemark_sight* out, int32_t capacity,
+                                                int32_t* count);
+
+/*
+ * Query and resect in one, and once more around the pose found: where the photograph was taken.
+ * out, capacity, count: the sights of the last round; out may be NULL with capacity 0 and residuals
+ * NULL; otherwise both have room for capacity elements. The other arguments as in
+ * lodemark_map_query and lodemark_pose_resect.
+ */
+LODEMARK_API lodemark_status lodemark_map_locate(
+    lodemark_map* map, const lodemark_lens* lens, const uint8_t* pixels, int64_t stride_bytes,
+    const lodemark_view_prior* prior, const lodemark_query_options* query_options,
+    const lodemark_resect_options* resect_options, lodemark_pose* pose, lodemark_sight* out,
+    lodemark_sight_residual* residuals, int32_t capacity, int32_t* count);
+
 /* Session: a stream of measurements in, a position at each epoch out. */
 
 /* Satellites are numbered as RINEX does: GLONASS by slot, QZSS by PRN - 192, SBAS by PRN - 100. */
