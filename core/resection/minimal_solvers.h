@@ -33,10 +33,14 @@ PoseSet<2> PoseFromTwoPointsAndGravity(const std::array<Eigen::Vector3d, 2>& bea
                                        const Eigen::Vector3d& up_in_camera,
                                        const Eigen::Vector3d& up_in_world);
 
-// Four or more points of one plane: the two poses that a homography leaves, the better first.
+// Four or more points of one plane: the two poses that a homography leaves, the better first. Not
+// refined: with noise they are a start. Uses the heap.
 PoseSet<2> PoseFromPlane(const Eigen::Matrix3Xd& bearings, const Eigen::Matrix3Xd& points_in_world);
 
-// Four points, pinhole pixels relative to the principal point, and one unknown focal length.
+// Four points, of one plane or not, pinhole pixels relative to the principal point, and one unknown
+// focal length. Eight equations for seven unknowns: the poses are least-squares ones, those that
+// leave more than a tenth of the pixels' spread are dropped. None where pixels do not hold the
+// focal length, as of a plane seen straight on.
 struct FocalPose {
   Rigid3 camera_from_world;
   double focal_px = 0.0;
