@@ -13,7 +13,9 @@ fail() {
 expect() {
   local code=$1 pattern=$2
   shift 2
-  timeout 60 "$@" >out 2>err </dev/null
+  local limit=(timeout 60)
+  [ "$(type -t "$1")" != function ] || limit=()
+  "${limit[@]}" "$@" >out 2>err </dev/null
   local got=$?
   [ "$got" = "$code" ] || fail "$* gave exit code $got, not $code: $(cat err)"
   cat out err | grep -qE -- "$pattern" || fail "$* did not say '$pattern' but: $(cat out err | head -5)"

@@ -31,8 +31,10 @@ int Run(int argument_count, char** arguments) {
   int exit_code = kExitGood;
   AddCompareCommand(app, &exit_code);
   AddLogCommand(app, &exit_code);
+  AddMapCommand(app, &exit_code);
   AddReplayCommand(app, &exit_code);
   AddReportCommand(app, &exit_code);
+  AddResectCommand(app, &exit_code);
   AddSimulateCommand(app, &exit_code);
 
   try {

@@ -1,0 +1,85 @@
+#include "tools/mapping/reconstruction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "tools/mapping/triangulation.h"
+
+namespace lodemark {
+namespace {
+
+// As the look-up weighs the features of a query.
+constexpr double kSigmaOfSize = 0.1;
+constexpr double kLeastSigma_px = 0.3;
+
+using Solver = std::function<std::optional<TriangulatedPoint>(std::size_t track,
+                                                              std::span<const PointView> views)>;
+
+void SolveTracks(const std::vector<FeatureTrack>& tracks, const Solver& solve,
+                 const Progress& progress, Reconstruction* reconstruction) {
+  double squares = 0.0;
+  double redundancy = 0.0;
+  std::vector<PointView> views;
+  for (std::size_t t = 0; t < tracks.size(); ++t) {
+    if (t % 256 == 0) progress(static_cast<double>(t) / static_cast<double>(tracks.size()));
+    FeatureTrack seen;
+    views.clear();
+    for (const ImageFeature& one : tracks[t]) {
+      const ReconstructedImage& image = reconstruction->images[one.image];
+      const Keypoint& keypoint = image.features.keypoints[one.feature];
+      const Eigen::Vector2d pixel(keypoint.x_px, keypoint.y_px);
+      const std::optional<Eigen::Vector3d> bearing = image.lens.Unproject(pixel);
+      if (!bearing) continue;
+      views.push_back(
+          {&image.lens, &image.camera_from_world, pixel, *bearing, RelativeSigma_px(keypoint)});
+      seen.push_back(one);
+    }
+    const std::optional<TriangulatedPoint> solved = solve(t, views);
+    if (!solved) continue;
+    squares += solved->squares;
+    redundancy += 2.0 * solved->used - 3.0;
+    ReconstructedPoint point;
+    point.in_world = solved->in_world;
+    point.covariance = solved->unit_covariance;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (solved->is_used[i] != 0) point.seen.push_back(seen[i]);
+    }
+    std::sort(point.seen.begin(), point.seen.end(),
+              [](const ImageFeature& a, const ImageFeature& b) { return a.image < b.image; });
+    reconstruction->points.push_back(std::move(point));
+  }
+  reconstruction->noise_px = redundancy > 0.0 ? std::sqrt(squares / redundancy) : 1.0;
+  const double variance = reconstruction->noise_px * reconstruction->noise_px;
+  for (ReconstructedPoint& point : reconstruction->points) point.covariance *= variance;
+  progress(1.0);
+}
+
+}  // namespace
+
+double RelativeSigma_px(const Keypoint& keypoint) {
+  return std::max(kLeastSigma_px, kSigmaOfSize * static_cast<double>(keypoint.size_px));
+}
+
+void TriangulateTracks(const std::vector<FeatureTrack>& tracks, const TriangulationOptions& options,
+                       const Progress& progress, Reconstruction* reconstruction) {
+  SolveTracks(
+      tracks,
+      [&](std::size_t, std::span<const PointView> views) { return Triangulate(views, options); },
+      progress, reconstruction);
+}
+
+void AppraiseTracks(const std::vector<FeatureTrack>& tracks,
+                    const std::vector<Eigen::Vector3d>& known, const TriangulationOptions& options,
+                    const Progress& progress, Reconstruction* reconstruction) {
+  SolveTracks(
+      tracks,
+      [&](std::size_t track, std::span<const PointView> views) {
+        return AppraisePoint(known[track], views, options);
+      },
+      progress, reconstruction);
+}
+
+}  // namespace lodemark
