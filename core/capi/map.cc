@@ -176,7 +176,8 @@ lodemark_status lodemark_map_locate(
     WriteStruct(ToC(found->pose, map->frame), pose);
     const std::size_t listed = Listed(found->matches.size());
     if (residuals != nullptr) {
-      const VisualRanges ranges = VisualRangesFrom(found->pose, SightsFrom(found->matches), *question.lens);
+      const VisualRanges ranges =
+          VisualRangesFrom(found->pose, SightsFrom(found->matches), *question.lens);
       const std::vector<lodemark_sight_residual> fared = SightResiduals(found->pose, ranges);
       status = WriteList<lodemark_sight_residual>(
           std::min(listed, fared.size()), [&](std::size_t i) { return fared[i]; }, residuals,
