@@ -1,5 +1,6 @@
 // Maps, photographs and resection through the C interface, on a scene that is known exactly.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -31,7 +32,9 @@ double Distance(const double (&a)[3], const double (&b)[3]) {
 class Photo : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    path_ = new std::string(::testing::TempDir() + "photo_test_wall.map");
+    // CTest runs each test in a process of its own, several at a time.
+    path_ =
+        new std::string(::testing::TempDir() + "photo_test_" + std::to_string(getpid()) + ".map");
     scene_ = new PhotoScene(*path_);
   }
   static void TearDownTestSuite() {
@@ -279,7 +282,8 @@ TEST(Map, OpeningNamesTheFileAndWhatIsWrongWithIt) {
   EXPECT_EQ(lodemark_map_open("no/such.map", &map), LODEMARK_ERROR_IO);
   EXPECT_EQ(map, nullptr);
   EXPECT_NE(std::strstr(lodemark_last_error(), "no/such.map"), nullptr);
-  const std::string path = ::testing::TempDir() + "photo_test_text.map";
+  const std::string path =
+      ::testing::TempDir() + "photo_test_text_" + std::to_string(getpid()) + ".map";
   std::ofstream(path)
       << "not a map at all, but long enough to be one's header, had it been one ....";
   EXPECT_EQ(lodemark_map_open(path.c_str(), &map), LODEMARK_ERROR_BAD_DATA);
