@@ -29,6 +29,7 @@ int Run(int argument_count, char** arguments) {
   app.require_subcommand(1);
 
   int exit_code = kExitGood;
+  AddCalibrateCommand(app, &exit_code);
   AddCompareCommand(app, &exit_code);
   AddLogCommand(app, &exit_code);
   AddMapCommand(app, &exit_code);

@@ -8,6 +8,7 @@ class App;
 
 namespace lodemark {
 
+void AddCalibrateCommand(CLI::App& app, int* exit_code);
 void AddCompareCommand(CLI::App& app, int* exit_code);
 void AddLogCommand(CLI::App& app, int* exit_code);
 void AddMapCommand(CLI::App& app, int* exit_code);
