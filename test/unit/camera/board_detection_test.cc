@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <opencv2/aruco/charuco.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "core/camera/calibration.h"
+#include "test/unit/camera/board_scene.h"
 
 namespace lodemark {
 namespace {
@@ -120,6 +124,50 @@ TEST(BoardDetection, ReadsAMarkedBoardOfWhichOnlyAPartIsSeen) {
     EXPECT_NEAR(corner.pixel.x(), truth.x, 0.3);
     EXPECT_NEAR(corner.pixel.y(), truth.y, 0.3);
   }
+}
+
+// A board that a known camera photographs from all sides, partly outside the image.
+TEST(BoardDetection, ReadsMarkedBoardsWellEnoughToCalibrate) {
+  constexpr double kFocal_px = 900.0;
+  const Eigen::Vector2d axis(655.0, 470.0);
+  const BoardPattern pattern = MarkedPattern(test::kSceneColumns, test::kSceneRows);
+  const DrawnBoard board = Draw(pattern);
+  cv::Mat soft;
+  cv::GaussianBlur(board.picture, soft, cv::Size(9, 9), 1.5);
+  // From pixels of the drawing to metres from the first inner corner.
+  const double metres = kSquare_m / kSquare_px;
+  const cv::Matx33d board_from_drawing(metres, 0.0, -metres * board.corners.front().x, 0.0, metres,
+                                       -metres * board.corners.front().y, 0.0, 0.0, 1.0);
+  Random random(4);
+  std::vector<BoardView> views;
+  for (int i = 0; i < 14; ++i) {
+    const Rigid3 pose = test::RandomBoardPose(0.35, &random);
+    const Eigen::Matrix3d rotation = pose.rotation().toRotationMatrix();
+    cv::Matx33d image_from_board;
+    for (int column = 0; column < 3; ++column) {
+      const Eigen::Vector3d from =
+          column < 2 ? Eigen::Vector3d(rotation.col(column)) : pose.translation();
+      image_from_board(0, column) = kFocal_px * from.x() + axis.x() * from.z();
+      image_from_board(1, column) = kFocal_px * from.y() + axis.y() * from.z();
+      image_from_board(2, column) = from.z();
+    }
+    cv::Mat photograph;
+    cv::warpPerspective(soft, photograph, image_from_board * board_from_drawing,
+                        cv::Size(1280, 960), cv::INTER_LINEAR, cv::BORDER_CONSTANT, 200);
+    const auto view = FindBoard(ImageOf(photograph), pattern);
+    if (view) views.push_back(*view);
+  }
+  EXPECT_GE(views.size(), 12u);
+  EXPECT_TRUE(std::any_of(views.begin(), views.end(),
+                          [](const BoardView& view) { return view.corners.size() < 54; }));
+  const auto calibration = Calibrate(1280, 960, views);
+  ASSERT_TRUE(calibration.ok()) << calibration.error().message;
+  RecordProperty("rms_px", std::to_string(calibration->rms_px));
+  EXPECT_LT(calibration->rms_px, 0.3);
+  EXPECT_NEAR(calibration->lens.fx_px, kFocal_px, 2.0);
+  EXPECT_NEAR(calibration->lens.fy_px, kFocal_px, 2.0);
+  EXPECT_NEAR(calibration->lens.cx_px, axis.x(), 2.0);
+  EXPECT_NEAR(calibration->lens.cy_px, axis.y(), 2.0);
 }
 
 TEST(BoardDetection, DoesNotFindWhatIsNotThere) {
