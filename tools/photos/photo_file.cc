@@ -6,7 +6,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 #include "tools/photos/photo_codecs.h"
@@ -17,6 +19,17 @@ namespace {
 constexpr std::int64_t kLargestFile_bytes = 512LL << 20;
 constexpr std::int64_t kLargestPhoto_px = 200'000'000;
 
+// The codecs in the lib folder beside the program's own. Not left to the program's RUNPATH, which the
+// loader does not ask when a sanitizer calls it on our behalf.
+void* OpenBesideProgram() {
+  std::error_code failed;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failed);
+  if (failed) return nullptr;
+  const std::filesystem::path beside =
+      program.parent_path().parent_path() / "lib" / LODEMARK_PHOTO_CODECS;
+  return dlopen(beside.c_str(), RTLD_NOW | RTLD_LOCAL);
+}
+
 // The codecs, loaded once and kept until the program ends.
 Result<const PhotoCodecs*> LoadCodecs() {
   static const Result<const PhotoCodecs*> loaded = []() -> Result<const PhotoCodecs*> {
@@ -26,7 +39,9 @@ Result<const PhotoCodecs*> LoadCodecs() {
                                        (reason == nullptr ? "no reason given" : reason) +
                                        "; is OpenCV's imgcodecs installed?"};
     };
-    void* library = dlopen(LODEMARK_PHOTO_CODECS, RTLD_NOW | RTLD_LOCAL);
+    void* library = OpenBesideProgram();
+    // Installed elsewhere, the loader's own search finds it.
+    if (library == nullptr) library = dlopen(LODEMARK_PHOTO_CODECS, RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) return missing();
     void* symbol = dlsym(library, kPhotoCodecsSymbol);
     if (symbol == nullptr) return missing();
