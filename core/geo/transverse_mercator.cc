@@ -90,15 +90,4 @@ Eigen::Vector3d GridFromGeodetic(const TransverseMercatorGrid& grid, const Geode
   return at;
 }
 
-double GridConvergence_rad(const TransverseMercatorGrid& grid, const Geodetic& place) {
-  double x = 0.0;
-  double y = 0.0;
-  double convergence_deg = 0.0;
-  double scale = 1.0;
-  Projection(grid).Forward(grid.central_meridian_rad * kDegreesPerRadian,
-                           place.latitude_rad * kDegreesPerRadian,
-                           place.longitude_rad * kDegreesPerRadian, x, y, convergence_deg, scale);
-  return convergence_deg * kRadiansPerDegree;
-}
-
 }  // namespace lodemark

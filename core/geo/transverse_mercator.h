@@ -31,7 +31,4 @@ std::optional<Geodetic> GeodeticFromGrid(const TransverseMercatorGrid& grid, dou
 // East, north, up in the grid: easting, northing, height.
 Eigen::Vector3d GridFromGeodetic(const TransverseMercatorGrid& grid, const Geodetic& place);
 
-// Angle from true north to the grid's north at a place, clockwise positive.
-double GridConvergence_rad(const TransverseMercatorGrid& grid, const Geodetic& place);
-
 }  // namespace lodemark

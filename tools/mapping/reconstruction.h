@@ -47,7 +47,7 @@ struct Reconstruction {
 };
 
 // How well a feature is placed, relative to others: the larger what was looked at, the worse.
-double RelativeSigma_px(const Keypoint& keypoint);
+double RelativeSigma_px(DescriptorKind kind, const Keypoint& keypoint);
 
 // Turns tracks into points, and estimates the noise and with it the points' covariances. Tracks
 // without a point fall away.

@@ -74,10 +74,4 @@ Result<std::vector<ImageMark>> ReadImageMarks(const std::string& path) {
   return marks;
 }
 
-Result<bool> HoldsImageMarks(const std::string& path) {
-  const Result<TableRows> rows = TableRows::Open(path, kNames);
-  if (!rows) return rows.error();
-  return rows->Require(kMarkFields).ok();
-}
-
 }  // namespace lodemark

@@ -32,7 +32,4 @@ Result<std::vector<SurveyedPoint>> ReadSurveyTable(const std::string& path,
 // Columns image, point, x_px, y_px, and sigma_px where known.
 Result<std::vector<ImageMark>> ReadImageMarks(const std::string& path);
 
-// Whether the table of points has the columns of marks too.
-Result<bool> HoldsImageMarks(const std::string& path);
-
 }  // namespace lodemark

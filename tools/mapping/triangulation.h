@@ -22,7 +22,9 @@ struct PointView {
 };
 
 struct TriangulationOptions {
-  double largest_residual_px = 4.0;   // times a view's own sigma: beyond it, a view is mistaken
+  // Times a view's own sigma: beyond it, a view is mistaken. Those of features are about 0.3 px,
+  // and poses and lenses may be out by a pixel.
+  double largest_residual_px = 8.0;
   int least_views = 2;                // that agree
   double least_parallax_rad = 0.026;  // 1.5 degrees, between some two of their rays
 };

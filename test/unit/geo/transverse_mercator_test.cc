@@ -87,16 +87,6 @@ TEST(TransverseMercator, ComesBack) {
   }
 }
 
-TEST(TransverseMercator, ConvergesToTrueNorthAsTheGridTurns) {
-  const auto grid = GridByName("33N");
-  ASSERT_TRUE(grid.has_value());
-  const Geodetic place = Degrees(50.0, 17.0);
-  const Geodetic norther = Degrees(50.0 + 1e-5, 17.0);
-  const Eigen::Vector3d step = GridFromGeodetic(*grid, norther) - GridFromGeodetic(*grid, place);
-  // True north leans to the left in the grid east of its meridian.
-  EXPECT_NEAR(std::atan2(-step.x(), step.y()), GridConvergence_rad(*grid, place), 1e-6);
-}
-
 TEST(TransverseMercator, RefusesNamesAndPlacesThatAreNone) {
   for (const char* const name : {"", "N", "0N", "61N", "11", "11X", "utm", "utm111N", "tm:", "tm:a",
                                  "tm:9,2", "tm:9,1,1,1,1", "tm:nan", "tm:9,1,1e9", "mercator"}) {

@@ -142,8 +142,9 @@ TEST(ImportColmap, LaysAModelOnTheEarthByControlPoints) {
   for (std::size_t p = 0; p < 60; ++p) {
     EXPECT_LT((built->content.landmarks[p].position_in_enu_m - project.points()[p]).norm(), 0.01);
   }
-  // Pixels out by 0.1, of features whose relative sigma is 0.3.
-  EXPECT_NEAR(built->noise_px, 0.33, 0.1);
+  // 0.1 px of noise on features whose scale is 1.5 px.
+  const double relative_px = RelativeSigma_px(DescriptorKind::kRootSift, {0, 0, 3.0F, 0, 0});
+  EXPECT_NEAR(built->noise_px, 0.1 / relative_px, 0.1);
   ASSERT_EQ(built->content.images.size(), 6U);
   EXPECT_EQ(built->content.images[2].name, "im2.jpg");
   EXPECT_LT(

@@ -122,7 +122,6 @@ TEST(SurveyTable, ReadsPointsAndMarksFromOneFile) {
   const auto twice = ReadSurveyTable(path, {});
   ASSERT_FALSE(twice.ok());
   EXPECT_THAT(twice.error().message, HasSubstr("at different places"));
-  EXPECT_FALSE(*HoldsImageMarks(path));
 }
 
 TEST(MapFrame, IsWhereItIsToldOrInTheMiddleOfThePlaces) {

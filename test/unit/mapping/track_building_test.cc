@@ -116,8 +116,9 @@ TEST(TriangulateTracks, GivesPointsWhereTheyAreAndTheNoise) {
   const auto tracks = BuildTracks(wall.images, {}, [](double) {});
   TriangulateTracks(tracks, {}, [](double) {}, &reconstruction);
   ASSERT_GT(reconstruction.points.size(), 145U);
-  // 0.3 px of noise on features whose relative sigma is 0.3.
-  EXPECT_NEAR(reconstruction.noise_px, 1.0, 0.1);
+  // 0.3 px of noise on features 3 px wide.
+  const double relative_px = RelativeSigma_px(DescriptorKind::kRootSift, {0, 0, 3.0F, 0, 0});
+  EXPECT_NEAR(reconstruction.noise_px, 0.3 / relative_px, 0.12);
   double sum = 0.0;
   for (const ReconstructedPoint& point : reconstruction.points) {
     const Eigen::Vector3d error = point.in_world - wall.points[point.seen.front().feature];
