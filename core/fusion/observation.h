@@ -26,6 +26,16 @@ struct RangeObservation {
   double zenith_delay_factor = 0.0;
 };
 
+// The direction in which a camera sees a known point: a landmark.
+struct BearingObservation {
+  Eigen::Vector3d point_in_ecef = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d point_covariance_enu_m2 = Eigen::Matrix3d::Zero();  // of this point alone
+  Eigen::Vector3d direction_in_camera = Eigen::Vector3d::UnitZ();     // unit, to the point
+  // Turns a small deviation of the direction into standard deviations: two rows, both orthogonal to
+  // the direction, per radian.
+  Eigen::Matrix<double, 2, 3> whitener = Eigen::Matrix<double, 2, 3>::Zero();
+};
+
 // A rate of change of a distance: Doppler.
 struct RangeRateObservation {
   Eigen::Vector3d direction_in_ecef = Eigen::Vector3d::Zero();  // unit, receiver to point

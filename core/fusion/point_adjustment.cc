@@ -1,6 +1,7 @@
 #include "core/fusion/point_adjustment.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,6 +40,9 @@ constexpr double kAgreementSlack = 0.5;
 // has hardly a lock, the error model can explain everything as late and still be tens of
 // kilometres off; then none of its ranges looks like ordinary noise.
 constexpr double kFewestOrdinary = 2.0;
+
+// What a statement about the place fixes no better it does not know.
+constexpr double kUnknownPlace_m = 1e3;
 
 // Cauchy weights whose width shrinks step by step (graduated non-convexity), late errors held
 // more suspect than early ones.
@@ -211,6 +215,15 @@ void Reconsider(PointProblem* problem, int largest_iterations) {
   problem->MoveTo(problem->point_in_ecef());  // the rows are shared
 }
 
+// A proposal for the sampling where the place is known from elsewhere: no more than a few times as
+// wide as that knowledge.
+Eigen::Matrix4d NoWiderThan(const PositionStatement& place, const Eigen::Matrix4d& proposal) {
+  constexpr double kWidth = 6.0;
+  Eigen::Matrix4d information = proposal.inverse();
+  information.topLeftCorner<3, 3>() += place.information_pm2 / kWidth;
+  return information.inverse();
+}
+
 // What the uncertainty of the unknowns that the sampling holds adds to the covariance of those that
 // it does not (law of total covariance). covariance: of all unknowns, at the mode.
 Eigen::Matrix4d FromHeldUnknowns(const PointProblem& problem, const PointMatrix& covariance) {
@@ -246,6 +259,7 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
   *estimate = PointEstimate();
   verdicts->assign(observations.size(), ObservationVerdict());
   PointProblem problem(observations, biases, options.height, &rows_);
+  problem.Believe(options.place);
   if (options.zenith_delay_sigma_m > 0.0) {
     problem.EstimateZenithDelay(options.zenith_delay_sigma_m);
   }
@@ -257,8 +271,12 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
   for (int clock = 0; clock < problem.clocks(); ++clock) {
     if (clock == 0 || problem.prior_sigma_m(clock) > kUnknownBias_m) --redundancy;
   }
+  const int stated = options.place ? options.place->Rank(kUnknownPlace_m) : 0;
+  redundancy += stated;
   estimate->redundancy = redundancy;
-  if (redundancy < 0 || observations.empty()) return estimate->status = PointStatus::kTooFew;
+  if (redundancy < 0 || (observations.empty() && stated < 3)) {
+    return estimate->status = PointStatus::kTooFew;
+  }
 
   if (!Approach(&problem, redundancy > 0, nullptr)) {
     return estimate->status = PointStatus::kNotConverged;
@@ -277,6 +295,7 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
   const PointMatrix covariance =
       factor.solve(PointMatrix::Identity(problem.unknowns(), problem.unknowns()));
   estimate->covariance_enu_m2 = covariance.topLeftCorner<3, 3>();
+  estimate->information_pm2 = estimate->covariance_enu_m2.inverse();
   estimate->clock_variance_m2 = problem.clocks() > 0 ? covariance(3, 3) : 0.0;
 
   double doubtful = 0.0;
@@ -292,6 +311,7 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
     }
     Eigen::Matrix4d proposal = 6.0 * covariance.topLeftCorner<4, 4>();
     proposal += Eigen::Vector4d(25.0, 25.0, 50.0, 25.0).asDiagonal();
+    if (options.place) proposal = NoWiderThan(*options.place, proposal);
     const PosteriorMoments moments = sampling_->Run(problem, proposal);
     if (moments.effective_samples > 4.0 && moments.mean.allFinite()) {
       PointVector step = PointVector::Zero(problem.unknowns());
@@ -342,11 +362,18 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
   }
   const double needed = static_cast<double>(observations.size()) - redundancy;
   const double beyond = std::min(kAgreeingBeyondNeeded, 0.5 * redundancy) - kAgreementSlack;
-  if (explained < needed + beyond || ordinary < kFewestOrdinary) {
+  // A place that is stated whole needs no range to agree with it.
+  if (stated < 3 && (explained < needed + beyond || ordinary < kFewestOrdinary)) {
     return estimate->status = PointStatus::kInconsistent;
   }
 
-  const double growth = 1.0 + kReflectionsAlike * late / static_cast<double>(observations.size());
+  // Where the place is known from elsewhere, reflections matter as far as ranges do.
+  const double from_place =
+      options.place
+          ? (covariance.topLeftCorner<3, 3>() * options.place->information_pm2).trace() / 3.0
+          : 0.0;
+  const double late_share = late / std::max(1.0, static_cast<double>(observations.size()));
+  const double growth = 1.0 + kReflectionsAlike * late_share * std::max(1.0 - from_place, 0.0);
   estimate->covariance_enu_m2 *= growth;
   estimate->clock_variance_m2 *= growth;
   Normals at_solution(problem.unknowns());

@@ -17,7 +17,7 @@ namespace lodemark {
 
 enum class PointStatus : std::uint8_t {
   kGood,
-  kTooFew,        // fewer observations than unknowns
+  kTooFew,        // fewer observations and statements than unknowns
   kNotConverged,  // the geometry does not fix the position
   kInconsistent,  // no subset large enough agrees
 };
@@ -28,6 +28,7 @@ struct PointOptions {
   bool posterior_mean = true;
   int posterior_samples = 512;  // a round
   std::optional<HeightPrior> height;
+  std::optional<PositionStatement> place;  // what else is known of the position
   // Estimates the zenith delay that no model took out, zero within this sigma; 0: does not.
   double zenith_delay_sigma_m = 0.0;
   // Probability of the risk that the protection levels leave.
@@ -46,6 +47,8 @@ struct PointEstimate {
   PointStatus status = PointStatus::kTooFew;
   Eigen::Vector3d position_in_ecef = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_enu_m2 = Eigen::Matrix3d::Zero();
+  // What ranges and priors know of the position, clocks eliminated, as normal errors around it.
+  Eigen::Matrix3d information_pm2 = Eigen::Matrix3d::Zero();
   double clock_m = 0.0;  // of group 0
   double clock_variance_m2 = 0.0;
   double zenith_delay_m = 0.0;

@@ -56,6 +56,7 @@ void PointProblem::MoveTo(const Eigen::Vector3d& point_in_ecef) {
   const Geodetic geodetic = GeodeticFromEcef(point_in_ecef);
   enu_from_ecef_ = EnuFromEcefRotation(geodetic);
   height_m_ = geodetic.height_m;
+  if (place_) place_offset_m_ = enu_from_ecef_ * (point_in_ecef - place_->around_in_ecef);
   for (std::size_t i = 0; i < observations_.size(); ++i) {
     const Eigen::Vector3d line = observations_[i].point_in_ecef - point_in_ecef;
     const double distance_m = line.norm();
@@ -156,6 +157,10 @@ void PointProblem::AccumulatePriors(PointMatrix* normal, PointVector* right) con
     (*normal)(2, 2) += information;
     (*right)[2] += information * height_residual_m(0.0);
   }
+  if (place_) {
+    normal->topLeftCorner<3, 3>() += place_->information_pm2;
+    right->head<3>() += place_->pull_pm - place_->information_pm2 * place_offset_m_;
+  }
 }
 
 double PointProblem::height_residual_m(double up_m) const {
@@ -176,6 +181,7 @@ double PointProblem::PriorCost() const {
     const double u = height_residual_m(0.0) / height_->sigma_m;
     cost += 0.5 * u * u;
   }
+  if (place_) cost += place_->CostAt(place_offset_m_);
   return cost;
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/fusion/clock_biases.h"
 #include "core/fusion/observation.h"
+#include "core/fusion/position_statement.h"
 
 namespace lodemark {
 
@@ -66,6 +67,8 @@ class PointProblem {
   double prior_m(int clock) const { return prior_m_[static_cast<std::size_t>(clock)]; }
   double prior_sigma_m(int clock) const { return prior_sigma_m_[static_cast<std::size_t>(clock)]; }
 
+  // Believes what else is known of the place; to be said before the first MoveTo.
+  void Believe(const std::optional<PositionStatement>& place) { place_ = place; }
   // Makes the zenith delay an unknown, believed to be zero within sigma_m (> 0).
   void EstimateZenithDelay(double sigma_m) { zenith_delay_sigma_m_ = sigma_m; }
   double& zenith_delay_m() { return zenith_delay_m_; }
@@ -84,16 +87,21 @@ class PointProblem {
   // Adds one row's weight and weighted residual to normal equations.
   void Accumulate(const Row& row, double weight, double weighted_residual, PointMatrix* normal,
                   PointVector* right) const;
-  // Adds what is believed of the clock differences and of the height.
+  // Adds what is believed of the clock differences, of the height and of the place.
   void AccumulatePriors(PointMatrix* normal, PointVector* right) const;
   // -log density of the priors at the present state.
   double PriorCost() const;
   double height_residual_m(double up_m) const;
   const std::optional<HeightPrior>& height() const { return height_; }
+  const std::optional<PositionStatement>& place() const { return place_; }
+  // From the point that the statement is around to the linearisation point: east, north, up.
+  const Eigen::Vector3d& place_offset_m() const { return place_offset_m_; }
 
  private:
   std::span<const RangeObservation> observations_;
   std::optional<HeightPrior> height_;
+  std::optional<PositionStatement> place_;
+  Eigen::Vector3d place_offset_m_ = Eigen::Vector3d::Zero();
   std::vector<Row>* rows_;
   Eigen::Vector3d point_in_ecef_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d enu_from_ecef_ = Eigen::Matrix3d::Identity();

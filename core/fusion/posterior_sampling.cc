@@ -17,6 +17,9 @@ constexpr double kEnough = 0.2;
 // Rows whose densities, each at least 1e-7, may be multiplied before a double needs new room.
 constexpr std::size_t kRowsPerScale = 32;
 
+// Of the logarithm of a density against that at the mode; more would be an overflow.
+constexpr double kMostGain = 300.0;
+
 double RadicalInverse(int index, int base) {
   double result = 0.0;
   double digit = 1.0 / base;
@@ -88,6 +91,16 @@ PosteriorMoments PosteriorSampling::Round(const PointProblem& problem, const Eig
                           root(2, 2) * samples_.coordinate(2, k);
       const double u = problem.height_residual_m(up_m) / problem.height()->sigma_m;
       samples_.weights()[k] *= std::exp(-0.5 * u * u);
+    }
+  }
+  if (problem.place()) {
+    const double at_state = problem.place()->CostAt(problem.place_offset_m());
+    for (std::size_t k = 0; k < samples_.count(); ++k) {
+      const Eigen::Vector4d standard(samples_.coordinate(0, k), samples_.coordinate(1, k),
+                                     samples_.coordinate(2, k), samples_.coordinate(3, k));
+      const Eigen::Vector3d step_m = (mean + root * standard).head<3>();
+      const double gain = at_state - problem.place()->CostAt(problem.place_offset_m() + step_m);
+      samples_.weights()[k] *= std::exp(std::min(gain, kMostGain));
     }
   }
   samples_.Normalise();

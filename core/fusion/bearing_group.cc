@@ -1,0 +1,210 @@
+#include "core/fusion/bearing_group.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/units.h"
+#include "core/geo/geodetic.h"
+
+namespace lodemark {
+namespace {
+
+// An attitude that nothing is known of: no better than half a turn.
+constexpr double kAnyAttitude_rad = kPi;
+
+// Median length of a normal vector of two dimensions, in sigmas.
+constexpr double kMedianLength = 1.17741;
+
+// Times what is expected, beyond which the median says that the position is off: noise alone hardly
+// ever makes it so large.
+constexpr double kSurelyOff = 2.0;
+
+// Scale of the noise that is not noise any more.
+constexpr double kStillOff = 1.5;
+
+// Steps of the attitude at a fixed position, and the turn below which they end.
+constexpr int kMostTurns = 8;
+constexpr double kNoTurn_rad = 1e-7;
+
+// Below this the point is behind the camera or beside it.
+constexpr double kLeastForward = 0.05;
+
+// v x axis for each axis: what a rotation does to a vector, negated.
+Eigen::Matrix3d CrossOf(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d cross;
+  cross << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return cross;
+}
+
+Eigen::Quaterniond Turn(const Eigen::Vector3d& turn_rad) {
+  const double angle_rad = turn_rad.norm();
+  if (angle_rad < 1e-12) return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, turn_rad / angle_rad));
+}
+
+}  // namespace
+
+void BearingGroup::Set(std::span<const BearingObservation> bearings, const AttitudePriors& priors,
+                       const Eigen::Quaterniond& camera_from_ecef, const BearingOptions& options) {
+  bearings_.assign(bearings.begin(), bearings.end());
+  linear_.resize(bearings_.size());
+  verdicts_.assign(bearings_.size(), BearingVerdict());
+  priors_ = priors;
+  options_ = options;
+  camera_from_ecef_ = camera_from_ecef.normalized();
+}
+
+// A landmark in camera axes q, seen in direction b: to first order its deviation from b, in the
+// plane that touches the unit sphere there, is q / (b . q) - b, and the whitener W removes b.
+void BearingGroup::Linearise(const Eigen::Vector3d& point_in_ecef) {
+  around_in_ecef_ = point_in_ecef;
+  enu_from_ecef_ = EnuFromEcefRotation(GeodeticFromEcef(point_in_ecef));
+  const Eigen::Matrix3d camera_from_enu =
+      camera_from_ecef_.toRotationMatrix() * enu_from_ecef_.transpose();
+  for (std::size_t i = 0; i < bearings_.size(); ++i) {
+    const BearingObservation& bearing = bearings_[i];
+    LinearBearing& linear = linear_[i];
+    const Eigen::Vector3d ray = enu_from_ecef_ * (bearing.point_in_ecef - point_in_ecef);
+    const Eigen::Vector3d q = camera_from_enu * ray;
+    const double along_m = bearing.direction_in_camera.dot(q);
+    linear.seen = along_m > kLeastForward * q.norm();
+    if (!linear.seen) continue;
+    const Eigen::Vector2d deviation = bearing.whitener * q / along_m;
+    const Eigen::Matrix<double, 2, 3> by_q =
+        (bearing.whitener - deviation * bearing.direction_in_camera.transpose()) / along_m;
+    const Eigen::Matrix<double, 2, 3> by_point = by_q * camera_from_enu;
+    linear.slope.leftCols<3>() = -by_point;
+    linear.slope.rightCols<3>() = by_point * CrossOf(ray);
+    linear.residual = -deviation;
+    // The landmark's own error makes the bearing less sure.
+    Eigen::Matrix2d covariance = by_point * bearing.point_covariance_enu_m2 * by_point.transpose();
+    covariance.diagonal().array() += 1.0;
+    const Eigen::LLT<Eigen::Matrix2d> factor(covariance);
+    factor.matrixL().solveInPlace(linear.slope);
+    factor.matrixL().solveInPlace(linear.residual);
+  }
+}
+
+// Where the position is off, all bearings are: what more than half of them share is taken for
+// noise.
+void BearingGroup::Weigh() {
+  sizes_.clear();
+  for (const LinearBearing& linear : linear_) {
+    if (linear.seen) sizes_.push_back(linear.residual.norm());
+  }
+  scale_ = 1.0;
+  if (!sizes_.empty()) {
+    const auto middle = sizes_.begin() + static_cast<std::ptrdiff_t>(sizes_.size() / 2);
+    std::nth_element(sizes_.begin(), middle, sizes_.end());
+    scale_ = std::max(1.0, *middle / (kSurelyOff * kMedianLength));
+  }
+  const double wrong = options_.wrong_probability / options_.wrong_area;
+  for (std::size_t i = 0; i < bearings_.size(); ++i) {
+    BearingVerdict& verdict = verdicts_[i];
+    verdict = BearingVerdict();
+    if (!linear_[i].seen) continue;
+    verdict.residual = linear_[i].residual;
+    const double variance = scale_ * scale_;
+    const double right = (1.0 - options_.wrong_probability) / (2.0 * kPi * variance) *
+                         std::exp(-0.5 * linear_[i].residual.squaredNorm() / variance);
+    verdict.weight = right / (right + wrong);
+  }
+}
+
+BearingGroup::Normals BearingGroup::Sum() const {
+  Normals normals;
+  for (std::size_t i = 0; i < bearings_.size(); ++i) {
+    const double weight = verdicts_[i].weight / (scale_ * scale_);
+    if (!(weight > 0.0)) continue;
+    const LinearBearing& linear = linear_[i];
+    normals.information.noalias() += weight * linear.slope.transpose() * linear.slope;
+    normals.right.noalias() += weight * linear.slope.transpose() * linear.residual;
+  }
+  AddPriors(&normals);
+  return normals;
+}
+
+void BearingGroup::AddPriors(Normals* normals) const {
+  auto information = normals->information.bottomRightCorner<3, 3>();
+  auto right = normals->right.tail<3>();
+  information.diagonal().array() += 1.0 / (kAnyAttitude_rad * kAnyAttitude_rad);
+  const Eigen::Matrix3d camera_from_enu =
+      camera_from_ecef_.toRotationMatrix() * enu_from_ecef_.transpose();
+  if (priors_.gravity) {
+    const double weight = 1.0 / (priors_.gravity->sigma_rad * priors_.gravity->sigma_rad);
+    const Eigen::Matrix3d slope = camera_from_enu * CrossOf(Eigen::Vector3d::UnitZ());
+    const Eigen::Vector3d residual = priors_.gravity->up_in_camera - camera_from_enu.col(2);
+    information += weight * slope.transpose() * slope;
+    right += weight * slope.transpose() * residual;
+  }
+  if (priors_.heading) {
+    // The optical axis, and how its heading changes as the camera turns.
+    const Eigen::Vector3d axis = camera_from_enu.row(2).transpose();
+    const double level = axis.head<2>().squaredNorm();
+    if (level < 1e-4) return;  // looks straight up or down: no heading
+    const double weight = 1.0 / (priors_.heading->sigma_rad * priors_.heading->sigma_rad);
+    const Eigen::Vector3d slope(axis.x() * axis.z() / level, axis.y() * axis.z() / level, -1.0);
+    const double residual =
+        std::remainder(priors_.heading->heading_rad - std::atan2(axis.x(), axis.y()), 2.0 * kPi);
+    information += weight * slope * slope.transpose();
+    right += weight * slope * residual;
+  }
+}
+
+// Schur's complement of the attitude.
+PositionStatement BearingGroup::Reduced(const Normals& normals) const {
+  const Eigen::LLT<Eigen::Matrix3d> attitude(normals.information.bottomRightCorner<3, 3>());
+  const Eigen::Matrix3d cross = normals.information.topRightCorner<3, 3>();
+  PositionStatement statement;
+  statement.around_in_ecef = around_in_ecef_;
+  statement.information_pm2 = normals.information.topLeftCorner<3, 3>() -
+                              cross * attitude.solve(Eigen::Matrix3d(cross.transpose()));
+  statement.pull_pm =
+      normals.right.head<3>() - cross * attitude.solve(Eigen::Vector3d(normals.right.tail<3>()));
+  return statement.WithCommonError(options_.common_covariance_enu_m2);
+}
+
+PositionStatement BearingGroup::At(const Eigen::Vector3d& point_in_ecef) {
+  for (int turn = 0; turn < kMostTurns; ++turn) {
+    Linearise(point_in_ecef);
+    Weigh();
+    normals_ = Sum();
+    const Eigen::LLT<Eigen::Matrix3d> attitude(normals_.information.bottomRightCorner<3, 3>());
+    const Eigen::Vector3d step = attitude.solve(Eigen::Vector3d(normals_.right.tail<3>()));
+    if (step.norm() < kNoTurn_rad) break;
+    // enu_from_camera = exp(step) * estimate, hence camera_from_ecef by the inverse on the right.
+    const Eigen::Vector3d turn_in_ecef = enu_from_ecef_.transpose() * step;
+    camera_from_ecef_ = (camera_from_ecef_ * Turn(-turn_in_ecef)).normalized();
+  }
+  return Reduced(normals_);
+}
+
+// More than half of the bearings with their own noise, not with what all are off by.
+bool BearingGroup::Agrees() const {
+  std::size_t agreeing = 0;
+  for (const BearingVerdict& verdict : verdicts_) agreeing += verdict.weight > 0.5 ? 1 : 0;
+  return scale_ < kStillOff && 2 * agreeing > verdicts_.size();
+}
+
+PositionStatement BearingGroup::Without(std::size_t part) const {
+  Normals normals = normals_;
+  const double weight = verdicts_[part].weight / (scale_ * scale_);
+  if (weight > 0.0) {
+    const LinearBearing& linear = linear_[part];
+    normals.information -= weight * linear.slope.transpose() * linear.slope;
+    normals.right -= weight * linear.slope.transpose() * linear.residual;
+  }
+  return Reduced(normals);
+}
+
+// Law of total covariance: the attitude's at a fixed position, and what the position's adds.
+Eigen::Matrix3d BearingGroup::AttitudeCovariance(
+    const Eigen::Matrix3d& position_covariance_enu_m2) const {
+  const Eigen::Matrix3d at_position = normals_.information.bottomRightCorner<3, 3>().inverse();
+  const Eigen::Matrix3d by_position = at_position * normals_.information.bottomLeftCorner<3, 3>();
+  return at_position + by_position * position_covariance_enu_m2 * by_position.transpose();
+}
+
+}  // namespace lodemark

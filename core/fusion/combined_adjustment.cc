@@ -1,0 +1,114 @@
+#include "core/fusion/combined_adjustment.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/units.h"
+#include "core/fusion/witness_protection.h"
+#include "core/geo/geodetic.h"
+
+namespace lodemark {
+namespace {
+
+// What a witness fixes no better it does not know.
+constexpr double kUnknownPlace_m = 1e3;
+
+// An estimate is one if every direction is known so well.
+constexpr double kNoPlace_m = 1e3;
+
+// Log of how much likelier satellites and witness speak of one place than of two. The satellites'
+// error is given the tails of Student's t, with as many degrees of freedom as ranges are redundant:
+// with none, nobody has checked them.
+double LogOddsOfOnePlace(const PointEstimate& alone, const PositionStatement& statement,
+                         const CombinedOptions& options) {
+  Eigen::Vector3d offset_m;
+  Eigen::Matrix3d covariance_m2;
+  statement.Moments(kUnknownPlace_m, &offset_m, &covariance_m2);
+  const Eigen::Matrix3d enu_from_ecef =
+      EnuFromEcefRotation(GeodeticFromEcef(statement.around_in_ecef));
+  const Eigen::Vector3d apart_m =
+      statement.around_in_ecef + enu_from_ecef.transpose() * offset_m - alone.position_in_ecef;
+  covariance_m2 += alone.covariance_enu_m2;
+  const Eigen::Vector3d apart_enu_m = enu_from_ecef * apart_m;
+  const double square = apart_enu_m.dot(covariance_m2.inverse() * apart_enu_m);
+  const double freedom = 1.0 + std::max(alone.redundancy, 0);
+  const double log_density = std::lgamma(0.5 * (freedom + 3.0)) - std::lgamma(0.5 * freedom) -
+                             1.5 * std::log(freedom * kPi) -
+                             0.5 * std::log(covariance_m2.determinant()) -
+                             0.5 * (freedom + 3.0) * std::log1p(square / freedom);
+  const double elsewhere = options.elsewhere_probability;
+  return log_density + std::log(options.elsewhere_volume_m3) +
+         std::log((1.0 - elsewhere) / elsewhere);
+}
+
+double SigmasMoved(const PointEstimate& estimate, const Eigen::Vector3d& from_in_ecef) {
+  const Eigen::Vector3d moved_m = EnuFromEcefRotation(GeodeticFromEcef(from_in_ecef)) *
+                                  (estimate.position_in_ecef - from_in_ecef);
+  return std::sqrt(moved_m.dot(estimate.information_pm2 * moved_m));
+}
+
+bool IsPlace(const PointEstimate& estimate) {
+  return estimate.covariance_enu_m2.allFinite() &&
+         estimate.covariance_enu_m2.diagonal().maxCoeff() < kNoPlace_m * kNoPlace_m;
+}
+
+}  // namespace
+
+PointStatus CombinedAdjustment::Solve(std::span<const RangeObservation> observations,
+                                      const Eigen::Vector3d& start_in_ecef,
+                                      const ClockBiases& biases, const CombinedOptions& options,
+                                      PositionWitness* witness, CombinedEstimate* estimate,
+                                      std::vector<ObservationVerdict>* verdicts) {
+  *estimate = CombinedEstimate();
+  const PointStatus alone = adjustment_.Solve(observations, start_in_ecef, biases, options.point,
+                                              &estimate->satellites_alone, &verdicts_alone_);
+  estimate->has_satellites_alone = alone == PointStatus::kGood;
+  const auto without_witness = [&] {
+    estimate->point = estimate->satellites_alone;
+    *verdicts = verdicts_alone_;
+    return alone;
+  };
+
+  Eigen::Vector3d point = start_in_ecef;
+  PositionStatement statement = witness->At(point);
+  if (!statement.information_pm2.allFinite() || statement.Rank(kUnknownPlace_m) == 0) {
+    return without_witness();
+  }
+  if (estimate->has_satellites_alone &&
+      LogOddsOfOnePlace(estimate->satellites_alone, statement, options) < 0.0) {
+    estimate->witness = WitnessVerdict::kContradicted;
+    return without_witness();
+  }
+
+  PointOptions point_options = options.point;
+  point_options.posterior_mean = false;
+  bool settled = false;
+  PointStatus status = PointStatus::kNotConverged;
+  while (estimate->rounds < options.most_rounds) {
+    ++estimate->rounds;
+    point_options.place = statement;
+    // The mean over the error model once the mode is found.
+    point_options.posterior_mean = settled && options.point.posterior_mean;
+    status =
+        adjustment_.Solve(observations, point, biases, point_options, &estimate->point, verdicts);
+    if (status != PointStatus::kGood) break;
+    if (settled) break;
+    settled = SigmasMoved(estimate->point, point) < options.converged_sigmas;
+    point = estimate->point.position_in_ecef;
+    statement = witness->At(point);
+    if (!statement.information_pm2.allFinite() || statement.Rank(kUnknownPlace_m) == 0) break;
+  }
+  const bool agrees = witness->Agrees();
+  if (status != PointStatus::kGood || !settled || !agrees || !IsPlace(estimate->point)) {
+    if (!agrees) estimate->witness = WitnessVerdict::kDisagreeing;
+    // The witness alone leads nowhere: where satellites do, it is left out.
+    if (estimate->has_satellites_alone) return without_witness();
+    return status == PointStatus::kGood ? PointStatus::kNotConverged : status;
+  }
+  estimate->witness = WitnessVerdict::kUsed;
+  WidenByParts(*witness, statement, options.point.integrity_risk, &estimate->point);
+  return PointStatus::kGood;
+}
+
+}  // namespace lodemark

@@ -1,0 +1,32 @@
+// Something that knows of the position besides satellites, and whose parts can each be mistaken.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+
+#include "core/fusion/position_statement.h"
+
+namespace lodemark {
+
+// What the landmarks of a photograph say, in the adjustment together with satellites. Its own
+// unknowns, such as the camera's attitude, it keeps to itself: a statement is what is left once
+// they are eliminated.
+class PositionWitness {
+ public:
+  virtual ~PositionWitness() = default;
+
+  // Puts its own unknowns where they fit the point best and linearises there: called again and
+  // again with points ever nearer the answer.
+  virtual PositionStatement At(const Eigen::Vector3d& point_in_ecef) = 0;
+
+  // Whether most of what it knows fits the point of the last At together.
+  virtual bool Agrees() const = 0;
+
+  // Parts that can be mistaken by themselves, and whether part i counts now, 0..1.
+  virtual std::size_t parts() const = 0;
+  virtual double WeightOf(std::size_t part) const = 0;
+  // The statement of the last At without one part.
+  virtual PositionStatement Without(std::size_t part) const = 0;
+};
+
+}  // namespace lodemark
