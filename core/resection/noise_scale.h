@@ -28,4 +28,12 @@ struct NoisyResidual {
 double NoiseFromSquares(std::span<const NoisyResidual> residuals, double expected, double least_px,
                         double most_px);
 
+// The noise whose 95 % ellipsoid of three unknowns holds 95 % where noise_px is but an estimate,
+// from squares with that many degrees of freedom of residuals cut off beyond gate_px. What is known
+// of the noise without them: that it lies between least_px and most_px, at any scale alike. With
+// many degrees the estimate itself; with few the bound is that of an F distribution, or wider where
+// the gate cannot tell more noise from less.
+double NoiseThatCovers(double noise_px, double degrees, double gate_px, double least_px,
+                       double most_px);
+
 }  // namespace lodemark

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "core/base/units.h"
 #include "core/resection/noise_scale.h"
 #include "core/resection/refinement.h"
 
@@ -17,14 +18,22 @@ constexpr double kSteady = 1e-3;         // relative change of the noise
 constexpr double kLeastNoise_px = 0.02;  // of what detectors give, and of rounding
 constexpr double kWidestGate = 2.5;      // thresholds
 
-// What is known of noise before any sight: as much as so many residual components of a fifth of the
-// threshold for the gate, which it only widens, of a tenth of it for the covariance. It keeps the
-// gate of a handful of sights from closing on those that happen to fit.
+// What is known of noise before any sight, for the gate, which it only widens: as much as so many
+// residual components of a fifth of the threshold. It keeps the gate of a handful of sights from
+// closing on those that happen to fit.
 constexpr double kGateDegrees = 4.0;
 constexpr double kGateShare = 0.2;
 constexpr double kFewestDegrees = 6.0;
-constexpr double kCovarianceDegrees = 1.0;
-constexpr double kCovarianceShare = 0.1;
+
+// Noise relative to the threshold that some sights are still within, for so many rounds; and the
+// degrees of freedom below which noise may be that much although it does not show.
+constexpr double kMostNoise = 0.7;
+constexpr int kRoundsHeld = 2;
+constexpr double kDoubtfulDegrees = 40.0;
+
+// A sight that the pose was not made from strays by its own noise and by the pose's. Where the
+// latter is more than so many times the former, agreement says nothing.
+constexpr double kMostLeverage = 15.0;
 
 // Residuals at a pose with what their covariance is made of.
 struct Residual {
@@ -82,25 +91,72 @@ class Adjustment {
     adjusted_.is_inlier.assign(sights.size(), 0);
   }
 
-  AdjustedPose Run(const Rigid3& start, const std::optional<IntrinsicsCovariance>& intrinsics) {
+  // is_noisy: from the most noise that the threshold allows down, else from what the sights within
+  // the threshold show.
+  void Settle(const Rigid3& start, bool is_noisy) {
     adjusted_.pose = CameraPose(start);
     residuals_ = ResidualsAt(adjusted_.pose, sights_, lens_);
     GuessNoise();
-    double degrees = 1.0;
+    if (is_noisy) adjusted_.noise_px = kMostNoise * threshold_px_;
+    int rounds_held = is_noisy ? kRoundsHeld : 0;
     for (int round = 0; round < kMostRounds; ++round) {
-      const bool same_inliers = !Gate();
+      const bool same_inliers = !Gate(round > 0);
       RefinementOptions options;
       options.noise_px = adjusted_.noise_px;
       options.kernel_sigmas = 0.0;
       const RefinedPose refined = RefinePose(adjusted_.pose.camera_from_enu(), sights_,
                                              adjusted_.is_inlier, lens_, priors_, options);
       adjusted_.pose = CameraPose(refined.camera_from_enu);
+      information_ = refined.information;
       residuals_ = ResidualsAt(adjusted_.pose, sights_, lens_);
+      information_noise_px_ = adjusted_.noise_px;
+      if (rounds_held-- > 0) continue;
       const double before_px = adjusted_.noise_px;
-      degrees = EstimateNoise(FromSights(adjusted_.pose, refined.information, priors_));
+      EstimateNoise(FromSights(adjusted_.pose, refined.information, priors_));
       if (same_inliers && std::abs(adjusted_.noise_px - before_px) < kSteady * before_px) break;
     }
-    adjusted_.covariance_noise_px = NoiseOfCovariance(degrees);
+  }
+
+  // Whether so few sights are left over that their noise may be another.
+  bool IsInDoubt() const { return degrees_ < kDoubtfulDegrees; }
+
+  // Logarithm of the probability of all sights, any pose, noise and share of mistaken ones being
+  // alike beforehand: of these inliers about the pose, by Laplace's approximation about it, and of
+  // the others anywhere in the image.
+  double LogEvidence() const {
+    const double image_px2 = static_cast<double>(lens_.parameters().width_px) *
+                             static_cast<double>(lens_.parameters().height_px);
+    double log_evidence = -PriorCost(priors_, adjusted_.pose, nullptr, nullptr);
+    double inliers = 0.0;
+    double outside = 0.0;
+    for (std::size_t i = 0; i < residuals_.size(); ++i) {
+      if (adjusted_.is_inlier[i] == 0 || !residuals_[i].is_seen) {
+        log_evidence -= std::log(image_px2);
+        outside += 1.0;
+        continue;
+      }
+      Eigen::Matrix2d covariance = residuals_[i].noisy.others_px2;
+      covariance.diagonal().array() +=
+          adjusted_.noise_px * adjusted_.noise_px * residuals_[i].noisy.own_variance;
+      log_evidence -= 0.5 * residuals_[i].SquareInSigmas(adjusted_.noise_px) +
+                      0.5 * std::log(4.0 * kPi * kPi * covariance.determinant());
+      inliers += 1.0;
+    }
+    const std::optional<Matrix6d> pose_covariance = InverseOfInformation(information_);
+    if (!pose_covariance) return -std::numeric_limits<double>::infinity();
+    const double scale = adjusted_.noise_px / information_noise_px_;
+    log_evidence += 0.5 * std::log(pose_covariance->determinant()) + 6.0 * std::log(scale) -
+                    0.5 * std::log(std::max(degrees_, 1.0));
+    return log_evidence + std::lgamma(inliers + 1.0) + std::lgamma(outside + 1.0) -
+           std::lgamma(inliers + outside + 2.0);
+  }
+
+  AdjustedPose Finish(const std::optional<IntrinsicsCovariance>& intrinsics) {
+    // What the gate cuts off of good sights costs accuracy too.
+    adjusted_.covariance_noise_px =
+        NoiseThatCovers(adjusted_.noise_px, std::max(degrees_, 0.0),
+                        gate_noise_px_ * std::sqrt(squared_gate_), kLeastNoise_px, threshold_px_) /
+        std::sqrt(std::max(kept_, 0.5));
     adjusted_.covariance = CovarianceOf(adjusted_.pose, sights_, adjusted_.is_inlier, lens_,
                                         priors_, adjusted_.covariance_noise_px, intrinsics);
     adjusted_.residuals_px.reserve(sights_.size());
@@ -144,26 +200,53 @@ class Adjustment {
     return std::min(square, widest * widest);
   }
 
-  // True if the inliers change.
-  bool Gate() {
+  // True if the inliers change. has_pose: the inliers so far made the pose.
+  bool Gate(bool has_pose) {
     gate_noise_px_ = GateNoise();
     squared_gate_ = SquaredGate();
     adjusted_.gate_noise_px = gate_noise_px_;
-    adjusted_.inliers = 0;
+    const std::optional<Matrix6d> pose_covariance =
+        has_pose ? InverseOfInformation(information_) : std::nullopt;
+    // The information is that of another noise.
+    const double scale = gate_noise_px_ / information_noise_px_;
+    const double outside = static_cast<double>(sights_.size()) - adjusted_.inliers;
+    const double odds = adjusted_.inliers / std::max(outside, 1.0);
+    int inliers = 0;
     bool changes = false;
     for (std::size_t i = 0; i < residuals_.size(); ++i) {
-      const std::uint8_t inlier =
-          residuals_[i].SquareInSigmas(gate_noise_px_) < squared_gate_ ? 1 : 0;
+      const double square = residuals_[i].SquareInSigmas(gate_noise_px_);
+      std::uint8_t inlier = square < squared_gate_ ? 1 : 0;
+      if (pose_covariance && inlier == 0 && adjusted_.is_inlier[i] == 0 &&
+          square < (1.0 + kMostLeverage) * squared_gate_) {
+        inlier = MayBelong(i, scale * scale * *pose_covariance, odds) ? 1 : 0;
+      }
       changes = changes || inlier != adjusted_.is_inlier[i];
       adjusted_.is_inlier[i] = inlier;
-      adjusted_.inliers += inlier;
+      inliers += inlier;
     }
+    adjusted_.inliers = inliers;
     return changes;
   }
 
-  // From the inliers, whose squares the gate cut off and the pose made less. Gives the degrees of
-  // freedom.
-  double EstimateNoise(double from_sights) {
+  // Of a sight that the pose was not made from: whether it strays no further than both may make it,
+  // and is likelier there than a mistaken one, which may be anywhere in the image.
+  bool MayBelong(std::size_t i, const Matrix6d& pose_covariance, double odds) const {
+    LinearSight linear;
+    if (!Linearise(sights_[i], adjusted_.pose, lens_, &linear)) return false;
+    const Eigen::Matrix2d own = PixelCovariance(sights_[i], linear.by_landmark, gate_noise_px_);
+    const Eigen::Matrix2d of_pose = linear.by_pose * pose_covariance * linear.by_pose.transpose();
+    if (!(of_pose.trace() < kMostLeverage * own.trace())) return false;
+    const Eigen::Matrix2d both = own + of_pose;
+    const Eigen::Vector2d weighted = both.inverse() * linear.residual_px;
+    const double image_px2 = static_cast<double>(lens_.parameters().width_px) *
+                             static_cast<double>(lens_.parameters().height_px);
+    const double likelier =
+        2.0 * std::log(odds * image_px2 / (2.0 * kPi * std::sqrt(both.determinant())));
+    return linear.residual_px.dot(weighted) < std::min(squared_gate_, likelier);
+  }
+
+  // From the inliers, whose squares the gate cut off and the pose made less.
+  void EstimateNoise(double from_sights) {
     std::vector<NoisyResidual> inliers;
     inliers.reserve(residuals_.size());
     for (std::size_t i = 0; i < residuals_.size(); ++i) {
@@ -174,19 +257,8 @@ class Adjustment {
     const double ratio = gate_noise_px_ / adjusted_.noise_px;
     kept_ = KeptVariance(squared_gate_ * ratio * ratio);
     degrees_ = 2.0 * kept_ * static_cast<double>(inliers.size()) - from_sights;
-    if (degrees_ < 0.5) return degrees_;
+    if (degrees_ < 0.5) return;
     adjusted_.noise_px = NoiseFromSquares(inliers, degrees_, kLeastNoise_px, threshold_px_);
-    return degrees_;
-  }
-
-  // The mean of the noise's variance given the residuals, which is larger than the estimate by what
-  // few residuals leave open. What the gate cuts off of good sights costs accuracy too.
-  double NoiseOfCovariance(double degrees) const {
-    const double prior_px = kCovarianceShare * threshold_px_;
-    const double squares = std::max(degrees, 0.0) * adjusted_.noise_px * adjusted_.noise_px +
-                           kCovarianceDegrees * prior_px * prior_px;
-    const double mean = squares / std::max(degrees + kCovarianceDegrees - 2.0, 1.0);
-    return std::sqrt(mean / std::max(kept_, 0.5));
   }
 
   std::span<const LandmarkSight> sights_;
@@ -194,6 +266,8 @@ class Adjustment {
   const ResectionPriors& priors_;
   double threshold_px_;
   std::vector<Residual> residuals_;
+  Matrix6d information_ = Matrix6d::Zero();  // of the last adjustment, at this noise:
+  double information_noise_px_ = 1.0;
   double degrees_ = 0.0;
   double gate_noise_px_ = 0.0;
   double squared_gate_ = kSquaredGate;
@@ -206,7 +280,16 @@ class Adjustment {
 AdjustedPose AdjustPose(const Rigid3& start, std::span<const LandmarkSight> sights,
                         const Lens& lens, const ResectionPriors& priors, double threshold_px,
                         const std::optional<IntrinsicsCovariance>& intrinsics) {
-  return Adjustment(sights, lens, priors, threshold_px).Run(start, intrinsics);
+  Adjustment adjustment(sights, lens, priors, threshold_px);
+  adjustment.Settle(start, false);
+  if (adjustment.IsInDoubt()) {
+    // A few of the sights agree with each other to within little noise, or more of them to within
+    // more.
+    Adjustment noisy(sights, lens, priors, threshold_px);
+    noisy.Settle(start, true);
+    if (noisy.LogEvidence() > adjustment.LogEvidence()) return noisy.Finish(intrinsics);
+  }
+  return adjustment.Finish(intrinsics);
 }
 
 std::vector<double> SquaresInSigmas(const CameraPose& pose, std::span<const LandmarkSight> sights,

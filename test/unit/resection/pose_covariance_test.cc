@@ -6,10 +6,14 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <cmath>
+#include <cstdio>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/base/random.h"
 #include "core/resection/collinearity.h"
+#include "core/resection/noise_scale.h"
 #include "core/resection/resection.h"
 #include "core/resection/visual_ranges.h"
 #include "test/unit/resection/resection_scene.h"
@@ -96,6 +100,94 @@ INSTANTIATE_TEST_SUITE_P(Cells, PoseCovarianceByNoise,
                                          std::pair(1.0, 0.0), std::pair(1.0, 0.3),
                                          std::pair(1.0, 0.6), std::pair(2.5, 0.0),
                                          std::pair(2.5, 0.6)));
+
+// Share of poses whose centre lies within the 68 % and the 95 % ellipsoid that is stated.
+struct Coverage {
+  int poses = 0;
+  int within_68 = 0;
+  int within_95 = 0;
+  int refused = 0;
+};
+
+Coverage CoverageOver(const SceneOptions& cell, int scenes) {
+  constexpr double kChiSquare3_68 = 3.506;
+  SceneOptions options = cell;
+  Coverage coverage;
+  for (int k = 0; k < scenes; ++k) {
+    options.seed = 700'000 + static_cast<std::uint64_t>(k);
+    const ResectionScene scene = MakeResectionScene(options);
+    const Result<ResectedPose> pose = Resect(scene.sights, scene.lens, scene.priors, {});
+    if (pose->verdict != PoseVerdict::kPose && pose->verdict != PoseVerdict::kWeak) {
+      ++coverage.refused;
+      continue;
+    }
+    const Eigen::Matrix3d covariance = pose->covariance.topLeftCorner<3, 3>();
+    const Eigen::Vector3d error = PoseError(*pose, scene).head<3>();
+    const double square = SquaredDistance(covariance, error);
+    ++coverage.poses;
+    coverage.within_68 += square < kChiSquare3_68 ? 1 : 0;
+    coverage.within_95 += square < kChiSquare3_95 ? 1 : 0;
+  }
+  return coverage;
+}
+
+// Sights that are right, share of mistaken ones, noise in pixels.
+class PoseCovarianceOfFew : public testing::TestWithParam<std::tuple<int, double, double>> {};
+
+// With few sights the 95 % bound is the one that is kept, so the 68 % one holds more than that: the
+// noise is known from few residuals, and no one ellipsoid is right for both.
+TEST_P(PoseCovarianceOfFew, HoldsAtBothBounds) {
+  const auto [right, share, noise_px] = GetParam();
+  SceneOptions options;
+  options.sights = static_cast<int>(std::lround(right / (1.0 - share)));
+  options.outlier_share = (options.sights - right - 0.5) / options.sights;
+  options.noise_px = noise_px;
+  constexpr int kScenes = 300;
+  const Coverage coverage = CoverageOver(options, kScenes);
+  std::printf("%3d right, %2.0f %% mistaken, %.1f px: %5.1f %% %5.1f %%, %d refused\n", right,
+              100.0 * share, noise_px, 100.0 * coverage.within_68 / coverage.poses,
+              100.0 * coverage.within_95 / coverage.poses, coverage.refused);
+  // Three sigmas of the binomial distribution.
+  const double poses = coverage.poses;
+  const double doubt_95 = 3.0 * std::sqrt(poses * 0.95 * 0.05);
+  const double doubt_68 = 3.0 * std::sqrt(poses * 0.68 * 0.32);
+  // Of so few among so many, one or two in a hundred scenes hide a mistaken sight.
+  const double hidden = right < 12 && share > 0.5 ? 0.02 : 0.0;
+  EXPECT_GT(coverage.within_95, (0.95 - hidden) * poses - doubt_95);
+  EXPECT_GT(coverage.within_68, 0.68 * poses - doubt_68);
+  const double fewer = right < 20 ? 0.17 : 0.03;
+  EXPECT_LT(coverage.within_68, (0.68 + fewer) * poses + doubt_68);
+  EXPECT_LT(coverage.refused, kScenes / 5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cells, PoseCovarianceOfFew,
+                         testing::Combine(testing::Values(6, 8, 12, 20, 50, 200),
+                                          testing::Values(0.0, 0.3, 0.6),
+                                          testing::Values(0.3, 1.0, 3.0)));
+INSTANTIATE_TEST_SUITE_P(MostlyMistaken, PoseCovarianceOfFew,
+                         testing::Combine(testing::Values(8, 20, 200), testing::Values(0.7),
+                                          testing::Values(0.3, 3.0)));
+
+TEST(NoiseThatCovers, IsTheBoundOfTheFDistribution) {
+  // Three times the 0.95 quantile of F with 3 and n degrees of freedom (tables), over that of the
+  // chi-square distribution.
+  for (const auto& [degrees, quantile] : {std::pair(4.0, 6.591),
+                                          {6.0, 4.757},
+                                          {10.0, 3.708},
+                                          {20.0, 3.098},
+                                          {60.0, 2.758},
+                                          {120.0, 2.680},
+                                          {240.0, 2.642}}) {
+    const double expected = std::sqrt(3.0 * quantile / kChiSquare3_95);
+    EXPECT_NEAR(NoiseThatCovers(1.0, degrees, 1e3, 0.001, 1e3), expected, 0.01 * expected)
+        << degrees;
+  }
+  // A gate at two sigmas cannot tell this noise from twice as much.
+  EXPECT_GT(NoiseThatCovers(1.0, 10.0, 2.0, 0.02, 5.0), 1.5 * std::sqrt(3.0 * 3.708 / 7.815));
+  // Nothing known but that it lies below 5.
+  EXPECT_GT(NoiseThatCovers(1.0, 0.0, 10.0, 0.02, 5.0), 2.0);
+  EXPECT_LT(NoiseThatCovers(1.0, 0.0, 10.0, 0.02, 5.0), 5.0);
+}
 
 TEST(PoseCovariance, HoldsForSightsOfDifferentSigma) {
   Consistency of_centre;
