@@ -12,15 +12,10 @@
 #include "core/capi/check.h"
 #include "core/capi/eyes.h"
 #include "core/capi/guard.h"
+#include "core/capi/map_handle.h"
 #include "core/capi/structs.h"
 #include "core/map/feature_map.h"
 #include "core/session/photo_position.h"
-
-// What a lodemark_map points to.
-struct lodemark_map {
-  std::unique_ptr<lodemark::FeatureMap> map;
-  lodemark::EnuFrame frame;
-};
 
 namespace lodemark {
 namespace {

@@ -24,6 +24,11 @@ static_assert(LODEMARK_TROPOSPHERE_SAASTAMOINEN ==
               static_cast<int>(TroposphereChoice::kSaastamoinen));
 static_assert(LODEMARK_TROPOSPHERE_HOPFIELD == static_cast<int>(TroposphereChoice::kHopfield));
 static_assert(LODEMARK_TROPOSPHERE_NONE == static_cast<int>(TroposphereChoice::kNone));
+static_assert(LODEMARK_SCHEME_JOINT == static_cast<int>(Scheme::kJoint));
+static_assert(LODEMARK_SCHEME_TIGHT == static_cast<int>(Scheme::kTight));
+static_assert(LODEMARK_SCHEME_TIGHT_DIAGONAL == static_cast<int>(Scheme::kTightDiagonal));
+static_assert(LODEMARK_SCHEME_VISION == static_cast<int>(Scheme::kVision));
+static_assert(LODEMARK_SCHEME_GNSS == static_cast<int>(Scheme::kGnss));
 static_assert(LODEMARK_WEIGHT_SIGNAL == static_cast<int>(WeightChoice::kSignal));
 static_assert(LODEMARK_WEIGHT_ELEVATION == static_cast<int>(WeightChoice::kElevation));
 
@@ -42,6 +47,8 @@ lodemark_status CheckOptions(const lodemark_session_options& options) {
   check.Constant(options.ionosphere, LODEMARK_IONOSPHERE_CLIMATOLOGY, "ionosphere");
   check.Constant(options.troposphere, LODEMARK_TROPOSPHERE_NONE, "troposphere");
   check.Constant(options.weight, LODEMARK_WEIGHT_ELEVATION, "weight");
+  check.Constant(options.scheme, LODEMARK_SCHEME_GNSS, "scheme");
+  check.Reserved(static_cast<std::uint32_t>(options.reserved));
   check.Within(options.queue_capacity, 0, kLargestQueue, "queue_capacity");
   check.Within(options.elevation_mask_deg, -90.0, 90.0, "elevation_mask_deg");
   check.Within(options.smallest_cn0_dbhz, -1000.0, 1000.0, "smallest_cn0_dbhz");
@@ -54,6 +61,7 @@ SessionOptions ToSessionOptions(const lodemark_session_options& from) {
   const auto has = [&](std::uint32_t flag) { return (from.flags & flag) != 0; };
   SessionOptions to;
   to.time_base = from.time_base == LODEMARK_TIME_BASE_BOOT ? TimeBase::kBoot : TimeBase::kGps;
+  to.scheme = static_cast<Scheme>(from.scheme);
   if (from.systems != 0) to.systems = from.systems;
   to.ionosphere = static_cast<IonosphereChoice>(from.ionosphere);
   to.troposphere = static_cast<TroposphereChoice>(from.troposphere);

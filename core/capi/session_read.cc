@@ -55,6 +55,30 @@ static_assert(LODEMARK_EVENT_FIRST_FIX == static_cast<int>(EventKind::kFirstFix)
 static_assert(LODEMARK_EVENT_FIX_LOST == static_cast<int>(EventKind::kFixLost));
 static_assert(LODEMARK_EVENT_EPHEMERIS_MISSING == static_cast<int>(EventKind::kEphemerisMissing));
 
+static_assert(LODEMARK_EVENT_PHOTO_CONTRADICTED == static_cast<int>(EventKind::kPhotoContradicted));
+static_assert(LODEMARK_EVENT_PHOTO_FAILED == static_cast<int>(EventKind::kPhotoFailed));
+
+static_assert(LODEMARK_PHOTO_NONE == static_cast<int>(PhotoOutcome::kNone));
+static_assert(LODEMARK_PHOTO_USED == static_cast<int>(PhotoOutcome::kUsed));
+static_assert(LODEMARK_PHOTO_NOT_RECOGNISED == static_cast<int>(PhotoOutcome::kNotRecognised));
+static_assert(LODEMARK_PHOTO_DISAGREEING == static_cast<int>(PhotoOutcome::kDisagreeing));
+static_assert(LODEMARK_PHOTO_CONTRADICTED == static_cast<int>(PhotoOutcome::kContradicted));
+static_assert(LODEMARK_SOURCE_GNSS == kSourceGnss && LODEMARK_SOURCE_VISION == kSourceVision);
+
+std::int32_t ToVerdict(LandmarkVerdict verdict) {
+  switch (verdict) {
+    case LandmarkVerdict::kUsed:
+      return LODEMARK_VERDICT_USED;
+    case LandmarkVerdict::kDownWeighted:
+      return LODEMARK_VERDICT_DOWN_WEIGHTED;
+    case LandmarkVerdict::kOutlier:
+      return LODEMARK_VERDICT_OUTLIER;
+    case LandmarkVerdict::kNotUsed:
+      break;
+  }
+  return LODEMARK_VERDICT_PHOTO_NOT_USED;
+}
+
 void Copy(const Eigen::Vector3d& from, double (&to)[3]) { std::memcpy(to, from.data(), sizeof to); }
 
 // A covariance is symmetric, so its columns are its rows.
@@ -70,6 +94,9 @@ lodemark_estimate ToC(const SessionEstimate& from) {
     to.present |= LODEMARK_ESTIMATE_HAS_GPS_TIME;
     to.time_gps_ns = from.time_gps_ns;
   }
+  to.photo = static_cast<std::int32_t>(from.photo);
+  to.landmarks_used = from.landmarks_used;
+  to.landmarks_seen = from.landmarks_seen;
   if (from.status != EstimateStatus::kFix) return to;
 
   to.present |= LODEMARK_ESTIMATE_HAS_POSITION;
@@ -100,6 +127,31 @@ lodemark_estimate ToC(const SessionEstimate& from) {
   if (from.vertical_protection_level_m > 0.0) {
     to.present |= LODEMARK_ESTIMATE_HAS_VERTICAL_PROTECTION_LEVEL;
     to.vertical_protection_level_m = from.vertical_protection_level_m;
+  }
+  if (from.has_orientation) {
+    to.present |= LODEMARK_ESTIMATE_HAS_ORIENTATION;
+    const Eigen::Quaterniond& rotation = from.camera_from_enu;
+    const double sign = rotation.w() < 0.0 ? -1.0 : 1.0;
+    to.camera_from_enu[0] = sign * rotation.w();
+    to.camera_from_enu[1] = sign * rotation.x();
+    to.camera_from_enu[2] = sign * rotation.y();
+    to.camera_from_enu[3] = sign * rotation.z();
+  }
+  return to;
+}
+
+lodemark_landmark ToC(const LandmarkStatus& from) {
+  lodemark_landmark to = {};
+  to.landmark_id = from.landmark_id;
+  to.verdict = ToVerdict(from.verdict);
+  std::memcpy(to.pixel_px, from.pixel.data(), sizeof to.pixel_px);
+  to.weight = from.weight;
+  Copy(from.landmark_in_ecef, to.landmark_in_ecef_m);
+  if (from.has_residual) {
+    to.present |= LODEMARK_LANDMARK_HAS_RESIDUAL;
+    std::memcpy(to.residual_px, from.residual_px.data(), sizeof to.residual_px);
+    to.range_m = from.range_m;
+    to.range_sigma_m = from.range_sigma_m;
   }
   return to;
 }
@@ -178,6 +230,17 @@ lodemark_status lodemark_session_satellites(const lodemark_session* session,
     const std::span<const SatelliteStatus> satellites = session->engine->satellites();
     return WriteList<lodemark_satellite>(
         satellites.size(), [&](std::size_t i) { return ToC(satellites[i]); }, out, capacity, count);
+  });
+}
+
+lodemark_status lodemark_session_landmarks(const lodemark_session* session, lodemark_landmark* out,
+                                           int32_t capacity, int32_t* count) {
+  using namespace lodemark;
+  if (session == nullptr) return Fail(LODEMARK_ERROR_INVALID_ARGUMENT, "session is NULL");
+  return Guard([&] {
+    const std::span<const LandmarkStatus> landmarks = session->engine->landmarks();
+    return WriteList<lodemark_landmark>(
+        landmarks.size(), [&](std::size_t i) { return ToC(landmarks[i]); }, out, capacity, count);
   });
 }
 

@@ -57,6 +57,10 @@ template <>
 inline constexpr std::uint32_t kFirstSize<lodemark_map_info> = 432;
 template <>
 inline constexpr std::uint32_t kFirstSize<lodemark_query_options> = 24;
+template <>
+inline constexpr std::uint32_t kFirstSize<lodemark_frame> = 64;
+template <>
+inline constexpr std::uint32_t kFirstSize<lodemark_landmark> = 96;
 
 // Far above the size of any struct that a later version may have: a larger one is a wild number.
 inline constexpr std::uint32_t kLargestSize = 65'536;

@@ -296,6 +296,7 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
       factor.solve(PointMatrix::Identity(problem.unknowns(), problem.unknowns()));
   estimate->covariance_enu_m2 = covariance.topLeftCorner<3, 3>();
   estimate->information_pm2 = estimate->covariance_enu_m2.inverse();
+  if (options.place) estimate->stated_information_pm2 = options.place->information_pm2;
   estimate->clock_variance_m2 = problem.clocks() > 0 ? covariance(3, 3) : 0.0;
 
   double doubtful = 0.0;

@@ -49,6 +49,8 @@ struct PointEstimate {
   Eigen::Matrix3d covariance_enu_m2 = Eigen::Matrix3d::Zero();
   // What ranges and priors know of the position, clocks eliminated, as normal errors around it.
   Eigen::Matrix3d information_pm2 = Eigen::Matrix3d::Zero();
+  // The part of it that was stated and not ranged.
+  Eigen::Matrix3d stated_information_pm2 = Eigen::Matrix3d::Zero();
   double clock_m = 0.0;  // of group 0
   double clock_variance_m2 = 0.0;
   double zenith_delay_m = 0.0;

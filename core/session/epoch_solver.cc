@@ -50,6 +50,20 @@ SatelliteVerdict VerdictOf(const ObservationVerdict& verdict) {
   return verdict.weight >= 0.1 ? SatelliteVerdict::kDownWeighted : SatelliteVerdict::kOutlier;
 }
 
+PhotoOutcome OutcomeOf(WitnessVerdict verdict) {
+  switch (verdict) {
+    case WitnessVerdict::kUsed:
+      return PhotoOutcome::kUsed;
+    case WitnessVerdict::kContradicted:
+      return PhotoOutcome::kContradicted;
+    case WitnessVerdict::kDisagreeing:
+      return PhotoOutcome::kDisagreeing;
+    case WitnessVerdict::kNothing:
+      break;
+  }
+  return PhotoOutcome::kNotRecognised;
+}
+
 // Whether it is orbits that are missing for a position, not measurements.
 bool LacksOrbits(std::span<const SatelliteStatus> statuses) {
   DistinctSatellites with_orbit;
@@ -74,14 +88,15 @@ bool LacksOrbits(std::span<const SatelliteStatus> statuses) {
 EpochSolver::EpochSolver(const SessionOptions& options)
     : options_(options), model_(options), weights_(options) {}
 
-void EpochSolver::Solve(const ObservationEpoch& epoch, SessionEstimate* estimate,
-                        std::vector<SatelliteStatus>* statuses) {
+void EpochSolver::Solve(const ObservationEpoch& epoch, const PhotoPart& photo,
+                        SessionEstimate* estimate, std::vector<SatelliteStatus>* statuses) {
   if (last_gps_ns_ != 0 && epoch.time_gps_ns > last_gps_ns_) {
     biases_.Advance(1e-9 * static_cast<double>(epoch.time_gps_ns - last_gps_ns_));
   }
   last_gps_ns_ = epoch.time_gps_ns;
   statuses->assign(epoch.signals.size(), SatelliteStatus());
-  estimate->status = SolvePosition(epoch, statuses);
+  estimate->status = SolvePosition(epoch, photo, statuses);
+  estimate->photo = photo_;
   if (estimate->status == EstimateStatus::kTooFewSatellites && LacksOrbits(*statuses)) {
     estimate->status = EstimateStatus::kNoEphemeris;
   }
@@ -97,26 +112,34 @@ void EpochSolver::Solve(const ObservationEpoch& epoch, SessionEstimate* estimate
   if (options_.height_memory) height_.Learn(*estimate);
 }
 
-EstimateStatus EpochSolver::SolvePosition(const ObservationEpoch& epoch,
-                                          std::vector<SatelliteStatus>* statuses) {
-  model_.FindSatellites(epoch, orbits_, statuses);
-  model_.NoteStrengths(epoch, &weights_);
-  const std::vector<double>& disagreements_m = code_rate_.Update(epoch);
-  std::optional<Eigen::Vector3d> place = last_place_in_ecef_;
-  if (!place) place = CoarsePosition(model_.CoarseRanges(epoch));
-  if (!place) return EstimateStatus::kTooFewSatellites;
+PointOptions EpochSolver::PointOptionsAt(std::int64_t time_gps_ns) const {
   PointOptions point_options;
-  if (options_.height_memory) point_options.height = height_.At(epoch.time_gps_ns);
+  if (options_.height_memory) point_options.height = height_.At(time_gps_ns);
   if (options_.estimate_zenith_delay) {
     point_options.zenith_delay_sigma_m = options_.troposphere == TroposphereChoice::kNone
                                              ? kWholeZenithDelay_m
                                              : kZenithDelaySigma_m;
   }
+  return point_options;
+}
+
+EstimateStatus EpochSolver::SolvePosition(const ObservationEpoch& epoch, const PhotoPart& photo,
+                                          std::vector<SatelliteStatus>* statuses) {
+  photo_ = PhotoOutcome::kNone;
+  modelled_ = false;
+  model_.FindSatellites(epoch, orbits_, statuses);
+  model_.NoteStrengths(epoch, &weights_);
+  const std::vector<double>& disagreements_m = code_rate_.Update(epoch);
+  std::optional<Eigen::Vector3d> place = last_place_in_ecef_;
+  if (!place) place = CoarsePosition(model_.CoarseRanges(epoch));
+  if (!place) place = photo.start_in_ecef;
+  if (!place) return EstimateStatus::kTooFewSatellites;
+  const PointOptions point_options = PointOptionsAt(epoch.time_gps_ns);
   PointStatus status = PointStatus::kTooFew;
   for (int pass = 0; pass < 3; ++pass) {
     model_.Model(epoch, *place, ionosphere_, weights_, disagreements_m, statuses);
-    status =
-        adjustment_.Solve(model_.ranges(), *place, biases_, point_options, &point_, &verdicts_);
+    modelled_ = true;
+    status = Adjust(*place, photo, options_.scheme != Scheme::kVision, point_options);
     if (status != PointStatus::kGood) break;
     const double moved_m = (point_.position_in_ecef - *place).norm();
     place = point_.position_in_ecef;
@@ -125,31 +148,86 @@ EstimateStatus EpochSolver::SolvePosition(const ObservationEpoch& epoch,
   return StatusOf(status);
 }
 
+PointStatus EpochSolver::Adjust(const Eigen::Vector3d& place, const PhotoPart& photo,
+                                bool with_epoch, const PointOptions& options) {
+  ranges_.clear();
+  if (with_epoch) ranges_.insert(ranges_.end(), model_.ranges().begin(), model_.ranges().end());
+  satellite_ranges_ = ranges_.size();
+  ranges_.insert(ranges_.end(), photo.ranges.begin(), photo.ranges.end());
+  const Eigen::Vector3d start = photo.start_in_ecef.value_or(place);
+  if (photo.witness == nullptr) {
+    const PointStatus status = adjustment_.Solve(ranges_, photo.ranges.empty() ? place : start,
+                                                 biases_, options, &point_, &verdicts_);
+    photo_ = photo.ranges.empty() ? PhotoOutcome::kNone : PhotoOutcome::kUsed;
+    return status;
+  }
+  CombinedOptions combined_options;
+  combined_options.point = options;
+  const PointStatus status = combined_adjustment_.Solve(ranges_, start, biases_, combined_options,
+                                                        photo.witness, &combined_, &verdicts_);
+  point_ = combined_.point;
+  photo_ = OutcomeOf(combined_.witness);
+  return status;
+}
+
+void EpochSolver::SolvePhoto(const PhotoPart& photo, bool with_epoch, SessionEstimate* estimate) {
+  photo_ = PhotoOutcome::kNone;
+  const std::optional<Eigen::Vector3d> place =
+      photo.start_in_ecef ? photo.start_in_ecef : last_place_in_ecef_;
+  PointStatus status = PointStatus::kTooFew;
+  if (place && !photo.empty()) {
+    status = Adjust(*place, photo, with_epoch && modelled_, PointOptionsAt(last_gps_ns_));
+  }
+  estimate->status = StatusOf(status);
+  estimate->photo = photo_;
+  if (estimate->status != EstimateStatus::kFix) return;
+  FillPosition(estimate);
+  DistinctSatellites used;
+  for (std::size_t i = 0; i < satellite_ranges_; ++i) {
+    if (verdicts_[i].used && verdicts_[i].observable) {
+      used.Add(model_.used_signals()[i].satellite_id);
+    }
+  }
+  estimate->satellites_used = used.count();
+}
+
+std::span<const ObservationVerdict> EpochSolver::visual_verdicts() const {
+  if (verdicts_.size() < satellite_ranges_) return {};
+  return std::span<const ObservationVerdict>(verdicts_).subspan(satellite_ranges_);
+}
+
 void EpochSolver::FillPosition(SessionEstimate* estimate) const {
   estimate->position_in_ecef = point_.position_in_ecef;
   estimate->position = GeodeticFromEcef(point_.position_in_ecef);
-  estimate->covariance_enu_m2 = point_.covariance_enu_m2;
-  estimate->covariance_enu_m2.diagonal() += Eigen::Vector3d(
-      kCommonHorizontal_m * kCommonHorizontal_m, kCommonHorizontal_m * kCommonHorizontal_m,
-      kCommonVertical_m * kCommonVertical_m);
+  // What is common to all ranges moves the position as far as it rests on them.
+  const Eigen::Matrix3d by_ranges = Eigen::Matrix3d::Identity() - point_.information_pm2.inverse() *
+                                                                      point_.stated_information_pm2;
+  const Eigen::Vector3d common_m(kCommonHorizontal_m, kCommonHorizontal_m, kCommonVertical_m);
+  const Eigen::Vector3d common_share = (by_ranges * common_m.asDiagonal()).rowwise().norm();
+  estimate->covariance_enu_m2 = point_.covariance_enu_m2 + by_ranges *
+                                                               common_m.cwiseAbs2().asDiagonal() *
+                                                               by_ranges.transpose();
   estimate->accuracy_m =
       RadiusOfProbability(estimate->covariance_enu_m2.topLeftCorner<2, 2>(), 0.68);
   estimate->vertical_accuracy_m = kHalfWidth68 * std::sqrt(estimate->covariance_enu_m2(2, 2));
   if (point_.protection_level_m > 0.0) {
-    estimate->protection_level_m = point_.protection_level_m + kCommonHorizontal_m;
+    estimate->protection_level_m = point_.protection_level_m + common_share.head<2>().maxCoeff();
   }
   if (point_.vertical_protection_level_m > 0.0) {
-    estimate->vertical_protection_level_m = point_.vertical_protection_level_m + kCommonVertical_m;
+    estimate->vertical_protection_level_m = point_.vertical_protection_level_m + common_share.z();
   }
   estimate->clock_bias_m = point_.clock_m;
   estimate->hdop = point_.hdop;
   estimate->vdop = point_.vdop;
   estimate->pdop = point_.pdop;
   estimate->tdop = point_.tdop;
-  estimate->sources = 1;
+  estimate->sources = 0;
+  if (satellite_ranges_ > 1) estimate->sources |= kSourceGnss;
+  if (photo_ == PhotoOutcome::kUsed) estimate->sources |= kSourceVision;
 }
 
 void EpochSolver::Judge(SessionEstimate* estimate, std::vector<SatelliteStatus>* statuses) const {
+  if (satellite_ranges_ != model_.used_signals().size()) return;  // not asked
   DistinctSatellites used;
   for (std::size_t i = 0; i < model_.used_signals().size(); ++i) {
     const PreparedSignal& prepared = model_.used_signals()[i];
@@ -193,9 +271,10 @@ void EpochSolver::SolveVelocity(SessionEstimate* estimate, std::vector<Satellite
 
 void EpochSolver::Learn() {
   const std::vector<PreparedSignal>& signals = model_.used_signals();
+  if (satellite_ranges_ == 0) return;
   if (point_.redundancy > 0) {
     const double share =
-        static_cast<double>(point_.redundancy) / static_cast<double>(signals.size());
+        std::min(static_cast<double>(point_.redundancy) / static_cast<double>(signals.size()), 1.0);
     redundancy_.assign(signals.size(), share);
     if (options_.estimate_variance_components) {
       RedundancyNumbers(model_.ranges(), verdicts_, point_.position_in_ecef, biases_, &redundancy_);
@@ -221,6 +300,7 @@ void EpochSolver::ForgetTime() {
 }
 
 void EpochSolver::Forget() {
+  modelled_ = false;
   ForgetTime();
   model_.Forget();
   weights_.Forget();

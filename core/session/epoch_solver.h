@@ -4,10 +4,13 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/fusion/clock_biases.h"
+#include "core/fusion/combined_adjustment.h"
 #include "core/fusion/point_adjustment.h"
+#include "core/fusion/position_witness.h"
 #include "core/fusion/velocity_adjustment.h"
 #include "core/gnss/ionosphere.h"
 #include "core/gnss/satellite_orbits.h"
@@ -19,6 +22,15 @@
 
 namespace lodemark {
 
+// What a photograph brings to an epoch.
+struct PhotoPart {
+  PositionWitness* witness = nullptr;        // or
+  std::span<const RangeObservation> ranges;  // visual ones, each for itself
+  std::optional<Eigen::Vector3d> start_in_ecef;
+
+  bool empty() const { return witness == nullptr && ranges.empty(); }
+};
+
 // Epochs come in the order of their time. Allocates only while they grow.
 class EpochSolver {
  public:
@@ -28,8 +40,14 @@ class EpochSolver {
   IonosphereModel& ionosphere() { return ionosphere_; }
 
   // Fills all of *estimate but its times and the satellites seen, and one status per signal.
-  void Solve(const ObservationEpoch& epoch, SessionEstimate* estimate,
+  void Solve(const ObservationEpoch& epoch, const PhotoPart& photo, SessionEstimate* estimate,
              std::vector<SatelliteStatus>* statuses);
+  // The photograph with the ranges of the last epoch, where there are any, or without. The estimate is of the
+  // moment of that epoch, and nothing is learned from it.
+  void SolvePhoto(const PhotoPart& photo, bool with_epoch, SessionEstimate* estimate);
+
+  // Of landmarks that came as ranges, by the last solution.
+  std::span<const ObservationVerdict> visual_verdicts() const;
 
   // The receiver clock starts anew; biases between the groups stay.
   void ForgetRanges() { code_rate_.Forget(); }
@@ -39,8 +57,12 @@ class EpochSolver {
   void Forget();
 
  private:
-  EstimateStatus SolvePosition(const ObservationEpoch& epoch,
+  EstimateStatus SolvePosition(const ObservationEpoch& epoch, const PhotoPart& photo,
                                std::vector<SatelliteStatus>* statuses);
+  // Satellites and photograph from a place near by.
+  PointStatus Adjust(const Eigen::Vector3d& place, const PhotoPart& photo, bool with_epoch,
+                     const PointOptions& options);
+  PointOptions PointOptionsAt(std::int64_t time_gps_ns) const;
   void SolveVelocity(SessionEstimate* estimate, std::vector<SatelliteStatus>* statuses);
   void FillPosition(SessionEstimate* estimate) const;
   void Judge(SessionEstimate* estimate, std::vector<SatelliteStatus>* statuses) const;
@@ -55,9 +77,15 @@ class EpochSolver {
   ClockBiases biases_;
   HeightMemory height_;
   PointAdjustment adjustment_;
+  CombinedAdjustment combined_adjustment_;
+  CombinedEstimate combined_;
+  std::vector<RangeObservation> ranges_;  // of satellites, then of landmarks
+  std::size_t satellite_ranges_ = 0;
+  bool modelled_ = false;  // the last epoch: there was a place to model it from
   PointEstimate point_;
-  std::vector<ObservationVerdict> verdicts_;
-  std::vector<double> redundancy_;  // of each range
+  PhotoOutcome photo_ = PhotoOutcome::kNone;
+  std::vector<ObservationVerdict> verdicts_;  // of ranges_
+  std::vector<double> redundancy_;            // of each range
   VelocityEstimate velocity_;
   std::vector<RateVerdict> rate_verdicts_;
   std::optional<Eigen::Vector3d> last_place_in_ecef_;  // only where to linearise

@@ -83,7 +83,10 @@ void EventLog::NoteOutcome(const SessionEstimate& estimate) {
   const bool fix = estimate.status == EstimateStatus::kFix;
   if (fix && !ever_fixed_) {
     Add(EventKind::kFirstFix, estimate.satellites_used,
-        "first position, from " + std::to_string(estimate.satellites_used) + " satellites");
+        "first position, from " + std::to_string(estimate.satellites_used) + " satellites" +
+            (estimate.landmarks_used > 0
+                 ? " and " + std::to_string(estimate.landmarks_used) + " landmarks"
+                 : ""));
   }
   if (!fix && fix_before_) {
     Add(EventKind::kFixLost, estimate.satellites_seen,
@@ -91,6 +94,23 @@ void EventLog::NoteOutcome(const SessionEstimate& estimate) {
   }
   fix_before_ = fix;
   ever_fixed_ = ever_fixed_ || fix;
+}
+
+void EventLog::NotePhoto(const SessionEstimate& estimate) {
+  if (estimate.photo == PhotoOutcome::kNone) return;
+  const bool contradicted = estimate.photo == PhotoOutcome::kContradicted;
+  if (contradicted && !contradicted_before_) {
+    Add(EventKind::kPhotoContradicted, estimate.landmarks_seen,
+        "the photograph is of another place than satellites say; left out: is the map of this "
+        "place, and still true?");
+  }
+  contradicted_before_ = contradicted;
+}
+
+void EventLog::NotePhotoFailed(const std::string& reason) {
+  if (reason == last_failure_) return;
+  last_failure_ = reason;
+  Add(EventKind::kPhotoFailed, 0.0, "a photograph could not be looked up: " + reason);
 }
 
 void EventLog::NoteEphemerisMissing(const SatelliteStatus& satellite) {

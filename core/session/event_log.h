@@ -31,6 +31,10 @@ class EventLog {
   // At most one event per satellite.
   void NoteEphemerisMissing(const SatelliteStatus& satellite);
 
+  // Once per run of such photographs.
+  void NotePhoto(const SessionEstimate& estimate);
+  void NotePhotoFailed(const std::string& reason);
+
   std::span<const SessionEvent> events() const { return events_; }
   void Clear() { events_.clear(); }
   // Forgets what was said about fixes and satellites too.
@@ -43,6 +47,8 @@ class EventLog {
   std::int64_t time_gps_ns_ = 0;
   bool fix_before_ = false;  // at the epoch before
   bool ever_fixed_ = false;
+  bool contradicted_before_ = false;
+  std::string last_failure_;
   std::array<std::bitset<256>, kSystemCount> without_ephemeris_;
   std::vector<SessionEvent> events_;
 };

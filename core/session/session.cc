@@ -14,6 +14,7 @@
 #include "core/session/epoch_solver.h"
 #include "core/session/event_log.h"
 #include "core/session/glonass_slots.h"
+#include "core/session/photo_fusion.h"
 #include "core/session/raw_verdicts.h"
 
 namespace lodemark {
@@ -40,7 +41,7 @@ bool NamesChannels(const AndroidEpoch& epoch) {
 
 struct Session::Impl {
   explicit Impl(const SessionOptions& session_options)
-      : options(session_options), solver(session_options) {}
+      : options(session_options), solver(session_options), photos(session_options.scheme) {}
 
   struct QueuedEpoch {
     std::int64_t time_ns = 0;
@@ -57,6 +58,8 @@ struct Session::Impl {
 
   // False if the epoch is to be dropped.
   bool Admit(QueuedEpoch* queued);
+  void ProcessEpoch();
+  void ProcessFrame();
   void Process(QueuedEpoch* queued);
   void NameGlonassSlots();
 
@@ -81,6 +84,8 @@ struct Session::Impl {
   bool discontinuity = false;  // of an epoch that was dropped
   SessionEstimate estimate;
   std::vector<SatelliteStatus> statuses;
+  PhotoFusion photos;
+  std::vector<LandmarkStatus> landmarks;
   EventLog events;
 };
 
@@ -189,20 +194,43 @@ Status Session::PushNavigationMessage(std::int32_t type, std::int32_t svid, std:
   return {};
 }
 
+void Session::UseMap(const FeatureMap* map) { impl_->photos.UseMap(map); }
+
+Status Session::PushFrame(const CameraFrame& frame) { return impl_->photos.Push(frame); }
+
 bool Session::ProcessNext() {
   Impl& s = *impl_;
-  if (s.count == 0) return false;
-  Impl::QueuedEpoch* queued = &s.ring[s.first];
-  s.first = (s.first + 1) % s.ring.size();
-  --s.count;
-  if (s.count == 0) s.first = 0;  // the same few slots again and again
+  const bool has_frame = s.photos.queued() > 0;
+  if (s.count == 0 && !has_frame) return false;
+  // Of the same time the photograph first, so that the epoch has it.
+  const bool frame_first =
+      has_frame && (s.count == 0 || s.photos.next_time_ns() <= s.ring[s.first].time_ns);
   s.estimate = SessionEstimate();
-  s.estimate.time_ns = queued->time_ns;
-  s.estimate.time_gps_ns = queued->epoch.time_gps_ns;
-  s.statuses.clear();
-  s.events.SetTime(queued->time_ns, queued->epoch.time_gps_ns);
-  if (s.Admit(queued)) s.Process(queued);
+  s.landmarks.clear();
+  if (frame_first) {
+    s.ProcessFrame();
+  } else {
+    s.ProcessEpoch();
+  }
   return true;
+}
+
+void Session::Impl::ProcessEpoch() {
+  QueuedEpoch* queued = &ring[first];
+  first = (first + 1) % ring.size();
+  --count;
+  if (count == 0) first = 0;  // the same few slots again and again
+  estimate.time_ns = queued->time_ns;
+  estimate.time_gps_ns = queued->epoch.time_gps_ns;
+  statuses.clear();
+  events.SetTime(queued->time_ns, queued->epoch.time_gps_ns);
+  if (Admit(queued)) Process(queued);
+}
+
+void Session::Impl::ProcessFrame() {
+  photos.Look(&solver, &estimate, &landmarks, &events);
+  events.NotePhoto(estimate);
+  events.NoteOutcome(estimate);
 }
 
 bool Session::Impl::Admit(QueuedEpoch* queued) {
@@ -231,7 +259,11 @@ void Session::Impl::Process(QueuedEpoch* queued) {
     events.NoteDiscontinuity();
     solver.ForgetRanges();
   }
-  solver.Solve(epoch, &estimate, &statuses);
+  const PhotoPart& photo = photos.PartAt(queued->time_ns);
+  solver.Solve(epoch, photo, &estimate, &statuses);
+  photos.Judge(solver, &estimate, &landmarks);
+  photos.NoteEpoch(epoch.time_gps_ns, estimate);
+  events.NotePhoto(estimate);
   if (estimate.status == EstimateStatus::kFix) {
     // The repair moved tag and ranges alike; the clock is told against the tag as received.
     const std::int64_t moved_ns = estimate.time_gps_ns - epoch.time_gps_ns;
@@ -260,9 +292,12 @@ void Session::Impl::NameGlonassSlots() {
                    &android.glonass_channels());
 }
 
-std::int32_t Session::queued() const { return static_cast<std::int32_t>(impl_->count); }
+std::int32_t Session::queued() const {
+  return static_cast<std::int32_t>(impl_->count + impl_->photos.queued());
+}
 const SessionEstimate& Session::estimate() const { return impl_->estimate; }
 std::span<const SatelliteStatus> Session::satellites() const { return impl_->statuses; }
+std::span<const LandmarkStatus> Session::landmarks() const { return impl_->landmarks; }
 std::span<const SessionEvent> Session::events() const { return impl_->events.events(); }
 void Session::ClearEvents() { impl_->events.Clear(); }
 
@@ -279,6 +314,8 @@ void Session::Reset() {
   s.discontinuity = false;
   s.estimate = SessionEstimate();
   s.statuses.clear();
+  s.photos.Forget();
+  s.landmarks.clear();
   s.events.Reset();
 }
 

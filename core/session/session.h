@@ -3,18 +3,24 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/camera/gray_image.h"
+#include "core/camera/lens.h"
 #include "core/geo/geodetic.h"
 #include "core/gnss/android_measurement.h"
 #include "core/gnss/ephemeris.h"
 #include "core/gnss/observation.h"
 #include "core/gnss/precise_orbits.h"
+#include "core/map/feature_map.h"
+#include "core/resection/sights.h"
 
 namespace lodemark {
 
@@ -33,8 +39,18 @@ enum class WeightChoice : std::uint8_t {
 };
 enum class TimeBase : std::uint8_t { kBoot, kGps };
 
+// What the position is made of where there are photographs.
+enum class Scheme : std::uint8_t {
+  kJoint,          // bearings of landmarks and ranges to satellites in one adjustment
+  kTight,          // visual ranges from the resected camera beside those to satellites (Xu et al.)
+  kTightDiagonal,  // the same as if visual ranges of one photograph were independent, as published
+  kVision,         // photographs alone
+  kGnss,           // satellites alone
+};
+
 struct SessionOptions {
   TimeBase time_base = TimeBase::kGps;
+  Scheme scheme = Scheme::kJoint;
   std::uint32_t systems = 0x7f;       // bit i: use System(i)
   double elevation_mask_rad = 0.087;  // 5 degrees
   double smallest_cn0_dbhz = 10.0;
@@ -50,6 +66,47 @@ struct SessionOptions {
   bool accept_unhealthy = false;
   std::int32_t queue_capacity = 64;  // epochs that may wait for Process
   std::uint64_t seed = 1;
+};
+
+// A photograph and what is known of how it was taken.
+struct CameraFrame {
+  explicit CameraFrame(const Lens& its_lens) : lens(its_lens) {}
+
+  std::int64_t time_ns = 0;  // in the session's time base, of the middle of the exposure
+  Lens lens;
+  GrayImage image;  // of the lens's size
+  std::optional<GravityPrior> gravity;
+  std::optional<double> heading_rad;  // of the optical axis, clockwise from north
+  double heading_sigma_rad = 0.0;
+};
+
+// What the latest photograph within reach gave the estimate.
+enum class PhotoOutcome : std::uint8_t {
+  kNone,  // there was none
+  kUsed,
+  kNotRecognised,  // it shows too little of the map for a pose
+  kDisagreeing,    // its landmarks fit no one place
+  kContradicted,   // satellites prove it to be of another place
+};
+
+enum class LandmarkVerdict : std::uint8_t {
+  kUsed,
+  kDownWeighted,
+  kOutlier,
+  kNotUsed,  // the photograph as a whole was not
+};
+
+// One landmark of the latest photograph within reach.
+struct LandmarkStatus {
+  std::uint32_t landmark_id = 0;
+  LandmarkVerdict verdict = LandmarkVerdict::kNotUsed;
+  bool has_residual = false;  // residual_px, range_m, range_sigma_m
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  Eigen::Vector2d residual_px = Eigen::Vector2d::Zero();  // seen minus predicted
+  double weight = 0.0;                                    // 0..1, share of full weight it kept
+  double range_m = 0.0;                                   // from the position estimated
+  double range_sigma_m = 0.0;
+  Eigen::Vector3d landmark_in_ecef = Eigen::Vector3d::Zero();
 };
 
 enum class EstimateStatus : std::uint8_t {
@@ -84,8 +141,18 @@ struct SessionEstimate {
   double tdop = 0.0;
   std::int32_t satellites_used = 0;  // distinct satellites
   std::int32_t satellites_seen = 0;
-  std::uint32_t sources = 0;  // bit 0: GNSS
+  std::uint32_t sources = 0;  // kSourceGnss, kSourceVision
+  PhotoOutcome photo = PhotoOutcome::kNone;
+  std::int32_t landmarks_used = 0;
+  std::int32_t landmarks_seen = 0;
+  // Of the camera at the photograph, where it was used: turns east, north, up at the position into
+  // camera axes.
+  bool has_orientation = false;
+  Eigen::Quaterniond camera_from_enu = Eigen::Quaterniond::Identity();
 };
+
+inline constexpr std::uint32_t kSourceGnss = 1;
+inline constexpr std::uint32_t kSourceVision = 2;
 
 enum class SatelliteVerdict : std::uint8_t {
   kUsed,
@@ -127,7 +194,9 @@ enum class EventKind : std::uint8_t {
   kDuplicateEpoch,      // the same time twice: the second dropped
   kFirstFix,
   kFixLost,
-  kEphemerisMissing,  // first time that no orbit was found for a satellite
+  kEphemerisMissing,   // first time that no orbit was found for a satellite
+  kPhotoContradicted,  // satellites prove a photograph to be of another place
+  kPhotoFailed,        // a photograph could not be looked up: the text says why
 };
 
 struct SessionEvent {
@@ -154,14 +223,23 @@ class Session {
   Status PushNavigationMessage(std::int32_t type, std::int32_t svid, std::int32_t message_id,
                                std::int32_t submessage_id, std::span<const std::uint8_t> bytes);
 
-  // Takes the oldest queued epoch and turns it into an estimate. True if there was one, even if it
-  // was dropped for its time: then the estimate has that time and kNoData, no satellites are
-  // listed, and nothing is remembered of the epoch but its event.
+  // The map that photographs are looked up in; it must stay as long as it is used. Null: none.
+  void UseMap(const FeatureMap* map);
+  // Copies the image. Fails with kQueueFull when Process must be called first: few photographs may
+  // wait. kOutOfOrder without a map.
+  Status PushFrame(const CameraFrame& frame);
+
+  // Takes the oldest of what is queued, epoch or photograph, and turns it into an estimate at its
+  // time. True if there was one, even if it was dropped for its time: then the estimate has that
+  // time and kNoData, no satellites are listed, and nothing is remembered of the epoch but its
+  // event. An epoch is adjusted together with the latest photograph, a photograph with the latest
+  // epoch, where they are not too far apart in time.
   bool ProcessNext();
-  std::int32_t queued() const;
+  std::int32_t queued() const;  // epochs and photographs
 
   const SessionEstimate& estimate() const;
   std::span<const SatelliteStatus> satellites() const;  // of the last epoch processed
+  std::span<const LandmarkStatus> landmarks() const;    // of the photograph the estimate looked at
   // Events since the last call of ClearEvents, at most 256; the oldest give way.
   std::span<const SessionEvent> events() const;
   void ClearEvents();

@@ -22,11 +22,16 @@ constexpr lodemark_status kInvalid = LODEMARK_ERROR_INVALID_ARGUMENT;
 
 using Call = std::function<lodemark_status()>;
 
+// What structs that have grown were in the first version of the interface.
+constexpr std::uint32_t kFirstSessionOptions = 72;
+constexpr std::uint32_t kFirstEstimate = 344;
+
 // The sizes that no version of a struct has.
 template <typename T>
-void RefusesWrongSizes(T* argument, const Call& call) {
+void RefusesWrongSizes(T* argument, const Call& call, std::uint32_t first_size = sizeof(T)) {
   constexpr std::uint32_t kSize = sizeof(T);
-  for (const std::uint32_t size : {0u, 1u, 4u, kSize - 8, kSize - 1, kSize + 4, 65'544u, ~0u}) {
+  for (const std::uint32_t size :
+       {0u, 1u, 4u, first_size - 8, kSize - 1, kSize + 4, 65'544u, ~0u}) {
     argument->struct_size = size;
     EXPECT_EQ(call(), kInvalid) << size;
     EXPECT_NE(std::strstr(lodemark_last_error(), "struct_size"), nullptr) << lodemark_last_error();
@@ -254,14 +259,15 @@ TEST_F(MisuseTest, EveryStructRefusesWrongSizes) {
   RefusesWrongSizes(&ranges_[2], [&] { return Solve(); });
   RefusesWrongSizes(&solve_options_, [&] { return Solve(); });
   RefusesWrongSizes(&solution_, [&] { return Solve(); });
-  RefusesWrongSizes(&session_options_, [&] { return Open(); });
+  RefusesWrongSizes(&session_options_, [&] { return Open(); }, kFirstSessionOptions);
   RefusesWrongSizes(&message_, [&] {
     return lodemark_session_push_broadcast(session_, &message_, bytes_, sizeof bytes_);
   });
   for (const auto push : {lodemark_session_push_navigation, lodemark_session_push_precise_orbits}) {
     RefusesWrongSizes(&report_, [&] { return push(session_, nullptr, bytes_, 40, &report_); });
   }
-  RefusesWrongSizes(&estimate_, [&] { return lodemark_session_estimate(session_, &estimate_); });
+  RefusesWrongSizes(
+      &estimate_, [&] { return lodemark_session_estimate(session_, &estimate_); }, kFirstEstimate);
   RefusesWrongSizes(&satellite_,
                     [&] { return lodemark_session_satellites(session_, &satellite_, 1, &count_); });
   RefusesWrongSizes(&event_,
@@ -270,6 +276,17 @@ TEST_F(MisuseTest, EveryStructRefusesWrongSizes) {
   RefusesWrongSizes(&residuals[0], [&] {
     return lodemark_position_solve(ranges_.data(), 4, nullptr, &solution_, residuals);
   });
+}
+
+TEST_F(MisuseTest, ProgramsOfTheFirstVersionAreServedAsThen) {
+  session_options_.scheme = LODEMARK_SCHEME_GNSS;  // beyond what such a program knows of
+  session_options_.struct_size = kFirstSessionOptions;
+  EXPECT_EQ(Open(), LODEMARK_OK) << lodemark_last_error();
+  unsigned char bytes[sizeof(lodemark_estimate)];
+  std::memset(bytes, 0xa5, sizeof bytes);
+  std::memcpy(bytes, &kFirstEstimate, sizeof kFirstEstimate);
+  EXPECT_GE(lodemark_session_estimate(session_, reinterpret_cast<lodemark_estimate*>(bytes)), 0);
+  for (std::size_t i = kFirstEstimate; i < sizeof bytes; ++i) ASSERT_EQ(bytes[i], 0xa5) << i;
 }
 
 TEST_F(MisuseTest, NewerInputsAreTakenWhileTheyAskForNothingNew) {

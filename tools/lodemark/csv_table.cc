@@ -27,7 +27,13 @@ Result<CsvTable> CsvTable::Open(const std::string& path,
                                 std::initializer_list<std::string_view> required) {
   Result<LineReader> lines = LineReader::Open(path);
   if (!lines) return lines.error();
-  CsvTable table(std::move(lines).value());
+  return From(std::move(lines).value(), required);
+}
+
+Result<CsvTable> CsvTable::From(LineReader lines,
+                                std::initializer_list<std::string_view> required) {
+  CsvTable table(std::move(lines));
+  const std::string path = table.lines_.name();
   table.report_.file = path;
   std::string_view line;
   bool found = false;

@@ -19,6 +19,7 @@ class CsvTable {
   // Fails if the file cannot be read or a required column is missing; then the message lists it.
   static Result<CsvTable> Open(const std::string& path,
                                std::initializer_list<std::string_view> required);
+  static Result<CsvTable> From(LineReader lines, std::initializer_list<std::string_view> required);
 
   // Place of a column for the calls below; -1 if the file has none of that name.
   int Column(std::string_view name) const;

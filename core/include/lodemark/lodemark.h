@@ -446,7 +446,7 @@ LODEMARK_API lodemark_status lodemark_map_locate(
     const lodemark_resect_options* resect_options, lodemark_pose* pose, lodemark_sight* out,
     lodemark_sight_residual* residuals, int32_t capacity, int32_t* count);
 
-/* Session: a stream of measurements in, a position at each epoch out. */
+/* Session: a stream of measurements in, a position at each epoch and photograph out. */
 
 /* Satellites are numbered as RINEX does: GLONASS by slot, QZSS by PRN - 192, SBAS by PRN - 100. */
 #define LODEMARK_SYSTEM_GPS 0
@@ -470,6 +470,13 @@ LODEMARK_API lodemark_status lodemark_map_locate(
 #define LODEMARK_TROPOSPHERE_SAASTAMOINEN 0
 #define LODEMARK_TROPOSPHERE_HOPFIELD 1
 #define LODEMARK_TROPOSPHERE_NONE 2
+
+/* What a position is made of where the session has photographs of its map. */
+#define LODEMARK_SCHEME_JOINT 0          /* landmarks' bearings and satellites' ranges together */
+#define LODEMARK_SCHEME_TIGHT 1          /* visual ranges beside those of satellites */
+#define LODEMARK_SCHEME_TIGHT_DIAGONAL 2 /* as if visual ranges were independent, as published */
+#define LODEMARK_SCHEME_VISION 3         /* photographs alone */
+#define LODEMARK_SCHEME_GNSS 4           /* satellites alone */
 
 #define LODEMARK_WEIGHT_SIGNAL 0    /* C/N0, elevation and reported uncertainty */
 #define LODEMARK_WEIGHT_ELEVATION 1 /* variance a^2 + b^2 / sin^2(elevation) */
@@ -496,6 +503,8 @@ typedef struct lodemark_session_options {
   double elevation_a_m;      /* of WEIGHT_ELEVATION; 0: 1 m */
   double elevation_b_m;      /* of WEIGHT_ELEVATION; 0: 1 m */
   uint64_t seed;             /* of every random choice; 0: 1 */
+  int32_t scheme;
+  int32_t reserved;
 } lodemark_session_options;
 
 typedef struct lodemark_session lodemark_session;
@@ -682,12 +691,47 @@ LODEMARK_API lodemark_status lodemark_session_push_broadcast(
     size_t byte_count);
 
 /*
- * Turns the oldest waiting epoch into an estimate. LODEMARK_NOTHING_QUEUED if none waits,
- * LODEMARK_NO_POSITION if the epoch was processed and gave none; the estimate then says why.
+ * The map that photographs are looked up in; NULL for none. It must stay open while the session
+ * uses it, and be used by the same thread.
+ */
+LODEMARK_API lodemark_status lodemark_session_use_map(lodemark_session* session, lodemark_map* map);
+
+/* Bits of lodemark_frame.present. */
+#define LODEMARK_FRAME_HAS_GRAVITY 0x1u
+#define LODEMARK_FRAME_HAS_HEADING 0x2u
+
+/* How a photograph was taken, as far as it is known. */
+typedef struct lodemark_frame {
+  uint32_t struct_size;
+  uint32_t present;
+  int64_t time_ns;        /* of the middle of the exposure, in the session's base */
+  double up_in_camera[3]; /* HAS_GRAVITY: what an accelerometer at rest measures, any length */
+  double up_sigma_deg;
+  double heading_deg; /* HAS_HEADING: of the optical axis, clockwise from north */
+  double heading_sigma_deg;
+} lodemark_frame;
+
+/*
+ * Queues a photograph: grey, 8 bits a pixel, of the lens's size, row y at pixels + y *
+ * stride_bytes; it is copied. What it shows is looked up when it is processed, around the last
+ * position where there is one. LODEMARK_ERROR_OUT_OF_ORDER before a map is used,
+ * LODEMARK_ERROR_QUEUE_FULL if four photographs wait.
+ */
+LODEMARK_API lodemark_status lodemark_session_push_image(lodemark_session* session,
+                                                         const lodemark_frame* frame,
+                                                         const lodemark_lens* lens,
+                                                         const uint8_t* pixels,
+                                                         int64_t stride_bytes);
+
+/*
+ * Turns the oldest of what waits, epoch or photograph, into an estimate at its time: an epoch with
+ * the latest photograph, a photograph with the latest epoch, where they are within 1.5 s. What the
+ * receiver may have moved in between is allowed for. LODEMARK_NOTHING_QUEUED if nothing waits,
+ * LODEMARK_NO_POSITION if it was processed and gave no position; the estimate then says why.
  */
 LODEMARK_API lodemark_status lodemark_session_process(lodemark_session* session);
 
-/* How many epochs wait for process. */
+/* How many epochs and photographs wait for process. */
 LODEMARK_API lodemark_status lodemark_session_queued(const lodemark_session* session,
                                                      int32_t* count);
 
@@ -697,11 +741,20 @@ LODEMARK_API lodemark_status lodemark_session_queued(const lodemark_session* ses
 #define LODEMARK_ESTIMATE_HAS_GPS_TIME 0x4u
 #define LODEMARK_ESTIMATE_HAS_PROTECTION_LEVEL 0x8u
 #define LODEMARK_ESTIMATE_HAS_VERTICAL_PROTECTION_LEVEL 0x10u
+#define LODEMARK_ESTIMATE_HAS_ORIENTATION 0x20u
 
 /* Bits of lodemark_estimate.sources. */
 #define LODEMARK_SOURCE_GNSS 0x1u
+#define LODEMARK_SOURCE_VISION 0x2u
 
-/* Where the antenna was at the epoch processed last. */
+/* What the latest photograph gave the estimate. */
+#define LODEMARK_PHOTO_NONE 0 /* there was none, or none near in time */
+#define LODEMARK_PHOTO_USED 1
+#define LODEMARK_PHOTO_NOT_RECOGNISED 2 /* it shows too little of the map */
+#define LODEMARK_PHOTO_DISAGREEING 3    /* its landmarks fit no one place */
+#define LODEMARK_PHOTO_CONTRADICTED 4   /* satellites prove it to be of another place */
+
+/* Where the phone was at the epoch or photograph processed last. */
 typedef struct lodemark_estimate {
   uint32_t struct_size;
   uint32_t present;
@@ -733,6 +786,12 @@ typedef struct lodemark_estimate {
    * that the fault of a single range could go unseen. */
   double protection_level_m; /* horizontal */
   double vertical_protection_level_m;
+  /* HAS_ORIENTATION: of the camera when its photograph was taken: quaternion w x y z. */
+  double camera_from_enu[4];
+  int32_t photo;          /* LODEMARK_PHOTO_... */
+  int32_t landmarks_used; /* of the photograph */
+  int32_t landmarks_seen;
+  int32_t reserved;
 } lodemark_estimate;
 
 /*
@@ -757,6 +816,7 @@ LODEMARK_API lodemark_status lodemark_session_estimate(const lodemark_session* s
 #define LODEMARK_VERDICT_SYSTEM_OFF 11
 #define LODEMARK_VERDICT_UNKNOWN_SIGNAL 12
 #define LODEMARK_VERDICT_UNOBSERVABLE 13 /* the only one of its clock group */
+#define LODEMARK_VERDICT_PHOTO_NOT_USED 14 /* a landmark whose photograph was not used */
 
 /* Bits of lodemark_satellite.present. */
 #define LODEMARK_SATELLITE_HAS_RESIDUAL 0x1u            /* residual_m, sigma_m */
@@ -787,6 +847,28 @@ LODEMARK_API lodemark_status lodemark_session_satellites(const lodemark_session*
                                                          lodemark_satellite* out, int32_t capacity,
                                                          int32_t* count);
 
+/* Bits of lodemark_landmark.present. */
+#define LODEMARK_LANDMARK_HAS_RESIDUAL 0x1u /* residual_px, range_m, range_sigma_m */
+
+/* One landmark in the photograph that the estimate looked at. */
+typedef struct lodemark_landmark {
+  uint32_t struct_size;
+  uint32_t present;
+  uint32_t landmark_id; /* in its map */
+  int32_t verdict;      /* USED, DOWN_WEIGHTED, OUTLIER or PHOTO_NOT_USED of LODEMARK_VERDICT_... */
+  double pixel_px[2];
+  double residual_px[2]; /* seen minus predicted from the estimate */
+  double weight;         /* share of its full weight that it kept, 0 .. 1 */
+  double range_m;        /* from the estimate */
+  double range_sigma_m;
+  double landmark_in_ecef_m[3];
+} lodemark_landmark;
+
+/* The landmarks that the estimate looked at, used or not; none where no photograph was near. */
+LODEMARK_API lodemark_status lodemark_session_landmarks(const lodemark_session* session,
+                                                        lodemark_landmark* out, int32_t capacity,
+                                                        int32_t* count);
+
 #define LODEMARK_EVENT_CLOCK_DISCONTINUITY 0 /* the receiver said so, or its bias was held anew */
 #define LODEMARK_EVENT_MILLISECOND_JUMP 1    /* found and repaired; value: milliseconds */
 #define LODEMARK_EVENT_TIME_BACKWARDS 2      /* an epoch older than the last one: dropped */
@@ -794,6 +876,8 @@ LODEMARK_API lodemark_status lodemark_session_satellites(const lodemark_session*
 #define LODEMARK_EVENT_FIRST_FIX 4
 #define LODEMARK_EVENT_FIX_LOST 5
 #define LODEMARK_EVENT_EPHEMERIS_MISSING 6 /* first time that a satellite had no orbit */
+#define LODEMARK_EVENT_PHOTO_CONTRADICTED 7 /* by satellites: it is of another place */
+#define LODEMARK_EVENT_PHOTO_FAILED 8       /* it could not be looked up; the text says why */
 
 /* Something that happened in between. */
 typedef struct lodemark_event {

@@ -1,0 +1,139 @@
+#include "core/session/photo_fusion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "core/base/units.h"
+#include "core/session/accuracy.h"
+
+namespace lodemark {
+namespace {
+
+// Photographs that may wait: each is as large as its pixels are many.
+constexpr std::size_t kFrames = 4;
+
+// A photograph and an epoch farther apart in time are not adjusted together.
+constexpr std::int64_t kReach_ns = 3 * kSecond_ns / 2;
+
+// How long a fix is a prior for the look-up, and how fast one may have gone since, 1 sigma.
+constexpr std::int64_t kPriorLasts_ns = 30 * kSecond_ns;
+constexpr double kPriorSpeed_mps = 5.0;
+
+// Half-width of a normal error that holds 68 % of it, in sigmas.
+constexpr double kHalfWidth68 = 0.99446;
+
+}  // namespace
+
+PhotoFusion::PhotoFusion(Scheme scheme) : scheme_(scheme), queue_(kFrames) {}
+
+Status PhotoFusion::Push(const CameraFrame& frame) {
+  if (map_ == nullptr) {
+    return Error{ErrorCode::kOutOfOrder, "photograph: the session has no map; use one first"};
+  }
+  const LensParameters& size = frame.lens.parameters();
+  if (frame.image.pixels == nullptr || frame.image.width_px != size.width_px ||
+      frame.image.height_px != size.height_px || frame.image.stride_bytes < size.width_px) {
+    return Error{ErrorCode::kInvalidArgument, "photograph: its size is not that of the lens"};
+  }
+  if (!queue_.Push(frame)) {
+    return Error{ErrorCode::kQueueFull, "session: " + std::to_string(kFrames) +
+                                            " photographs wait already; process first"};
+  }
+  return {};
+}
+
+std::optional<PlacePrior> PhotoFusion::PlaceAt(std::int64_t time_ns) const {
+  if (!last_fix_ || std::abs(time_ns - last_fix_->time_ns) > kPriorLasts_ns) return std::nullopt;
+  PlacePrior prior;
+  prior.position_in_ecef = last_fix_->position_in_ecef;
+  prior.covariance_enu_m2 = last_fix_->covariance_enu_m2;
+  const double gone_m =
+      1.0 + kPriorSpeed_mps * 1e-9 * static_cast<double>(std::abs(time_ns - last_fix_->time_ns));
+  prior.covariance_enu_m2.diagonal().array() += gone_m * gone_m;
+  return prior;
+}
+
+void PhotoFusion::Look(EpochSolver* solver, SessionEstimate* estimate,
+                       std::vector<LandmarkStatus>* landmarks, EventLog* events) {
+  const CameraFrame& frame = queue_.front();
+  const std::int64_t time_ns = frame.time_ns;
+  estimate->time_ns = time_ns;
+  if (epoch_gps_ns_ != 0) estimate->time_gps_ns = epoch_gps_ns_ + (time_ns - epoch_ns_);
+  events->SetTime(time_ns, estimate->time_gps_ns);
+  estimate->status = EstimateStatus::kTooFewSatellites;
+  sighting_.reset();
+  if (scheme_ != Scheme::kGnss && map_ != nullptr) {
+    Result<PhotoSighting> sighting = Sight(*map_, frame, PlaceAt(time_ns));
+    if (sighting) {
+      sighting_ = std::move(*sighting);
+    } else {
+      events->NotePhotoFailed(sighting.error().message);
+    }
+  }
+  queue_.Pop();
+  if (!sighting_) return;
+
+  // Estimated at the moment of the epoch, then carried to that of the photograph.
+  const bool with_epoch =
+      has_epoch_ && std::abs(time_ns - epoch_ns_) <= kReach_ns && scheme_ != Scheme::kVision;
+  const PhotoPart& part = PartAt(with_epoch ? epoch_ns_ : time_ns);
+  solver->SolvePhoto(part, with_epoch, estimate);
+  Judge(*solver, estimate, landmarks);
+  if (estimate->status != EstimateStatus::kFix) return;
+  if (with_epoch) {
+    const Displacement moved = motion_.Between(epoch_ns_, time_ns);
+    estimate->position_in_ecef += moved.in_ecef_m;
+    estimate->position = GeodeticFromEcef(estimate->position_in_ecef);
+    estimate->covariance_enu_m2 += moved.covariance_enu_m2;
+    estimate->accuracy_m =
+        RadiusOfProbability(estimate->covariance_enu_m2.topLeftCorner<2, 2>(), 0.68);
+    estimate->vertical_accuracy_m = kHalfWidth68 * std::sqrt(estimate->covariance_enu_m2(2, 2));
+  }
+  last_fix_ = *estimate;
+}
+
+const PhotoPart& PhotoFusion::PartAt(std::int64_t time_ns) {
+  part_ = PhotoPart();
+  sighting_near_ = sighting_ && std::abs(sighting_->time_ns - time_ns) <= kReach_ns;
+  if (!sighting_near_) return part_;
+  const Displacement moved = motion_.Between(time_ns, sighting_->time_ns);
+  if (!witness_.Prepare(*sighting_, moved, scheme_)) return part_;
+  part_.witness = witness_.witness();
+  part_.ranges = witness_.ranges();
+  part_.start_in_ecef = witness_.start_in_ecef();
+  return part_;
+}
+
+void PhotoFusion::Judge(const EpochSolver& solver, SessionEstimate* estimate,
+                        std::vector<LandmarkStatus>* landmarks) const {
+  if (!sighting_near_) return;
+  if (part_.empty()) {
+    estimate->photo = PhotoOutcome::kNotRecognised;
+    ListUnused(*sighting_, landmarks);
+    estimate->landmarks_seen = static_cast<std::int32_t>(landmarks->size());
+    return;
+  }
+  witness_.Judge(*sighting_, solver.visual_verdicts(), estimate, landmarks);
+}
+
+void PhotoFusion::NoteEpoch(std::int64_t time_gps_ns, const SessionEstimate& estimate) {
+  has_epoch_ = true;
+  epoch_ns_ = estimate.time_ns;
+  epoch_gps_ns_ = time_gps_ns;
+  motion_.Learn(estimate);
+  if (estimate.status == EstimateStatus::kFix) last_fix_ = estimate;
+}
+
+void PhotoFusion::Forget() {
+  queue_.Clear();
+  sighting_.reset();
+  sighting_near_ = false;
+  motion_.Forget();
+  has_epoch_ = false;
+  epoch_gps_ns_ = 0;
+  last_fix_.reset();
+}
+
+}  // namespace lodemark

@@ -1,0 +1,59 @@
+#include "core/session/photo_sighting.h"
+
+#include <utility>
+
+#include "core/session/photo_position.h"
+
+namespace lodemark {
+namespace {
+
+ViewPrior ViewFrom(const PlacePrior& place, const CameraFrame& frame, const EnuFrame& map_frame) {
+  ViewPrior view;
+  view.position_in_enu_m = map_frame.FromEcef(place.position_in_ecef);
+  const Eigen::Matrix3d map_from_local =
+      map_frame.enu_from_ecef() *
+      EnuFromEcefRotation(GeodeticFromEcef(place.position_in_ecef)).transpose();
+  view.position_covariance_m2 =
+      map_from_local * place.covariance_enu_m2 * map_from_local.transpose();
+  view.heading_rad = frame.heading_rad;
+  view.heading_sigma_rad = frame.heading_sigma_rad;
+  return view;
+}
+
+}  // namespace
+
+Result<PhotoSighting> Sight(const FeatureMap& map, const CameraFrame& frame,
+                            const std::optional<PlacePrior>& prior) {
+  PhotoSighting sighting(frame.lens, EnuFrame(map.info().origin));
+  sighting.time_ns = frame.time_ns;
+  if (frame.gravity) {
+    sighting.attitude.gravity =
+        AttitudePriors::Gravity{frame.gravity->up_in_camera, frame.gravity->sigma_rad};
+  }
+  if (frame.heading_rad) {
+    sighting.attitude.heading =
+        AttitudePriors::Heading{*frame.heading_rad, frame.heading_sigma_rad};
+  }
+
+  PhotoPrior photo;
+  photo.resection.gravity = frame.gravity;
+  if (prior) photo.view = ViewFrom(*prior, frame, sighting.frame);
+  Result<PhotoPosition> found = LocatePhoto(map, frame.image, frame.lens, photo, {});
+  if (!found) return found.error();
+  const auto has_pose = [](const PhotoPosition& position) {
+    return position.pose.verdict == PoseVerdict::kPose ||
+           position.pose.verdict == PoseVerdict::kWeak;
+  };
+  if (prior && !has_pose(*found)) {
+    // The prior may be wrong: once more with the whole map.
+    photo.view.reset();
+    Result<PhotoPosition> again = LocatePhoto(map, frame.image, frame.lens, photo, {});
+    if (!again) return again.error();
+    if (has_pose(*again)) found = std::move(again);
+  }
+  sighting.pose = std::move(found->pose);
+  sighting.matches = std::move(found->matches);
+  return sighting;
+}
+
+}  // namespace lodemark
