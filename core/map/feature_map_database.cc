@@ -87,7 +87,9 @@ Status FeatureMap::Database::ForEachLandmark(std::int64_t first_id, std::int64_t
   while (landmarks.Step()) {
     const Result<LandmarkRow> row = ReadLandmark(*file.connection, landmarks);
     if (!row) return row.error();
-    if (row->landmark.id <= previous) return Bad("landmarks: is damaged: ids do not ascend");
+    if (row->landmark.id <= previous || row->landmark.id >= file.landmark_id_limit) {
+      return Bad("landmarks: is damaged: ids do not ascend");
+    }
     previous = row->landmark.id;
     visit(*row);
   }
