@@ -17,8 +17,10 @@ std::vector<std::uint8_t> Painting(std::uint64_t seed, int width_px, int height_
 
 struct PhotoScene {
   // The camera stands at kCamera_enu_m of a map with its origin at kOrigin_geodetic, level, and
-  // looks north. Writes the map to path.
+  // looks north. Writes the map to path; problem says why it could not.
   explicit PhotoScene(const std::string& path);
+
+  std::string problem;
 
   lodemark_lens lens = {};
   std::vector<std::uint8_t> photo;  // rows one after another
@@ -26,7 +28,7 @@ struct PhotoScene {
   double camera_in_ecef_m[3] = {};
 
  private:
-  void MakeMap(const std::string& path);
+  std::string MakeMap(const std::string& path);  // what went wrong
 };
 
 }  // namespace lodemark::test

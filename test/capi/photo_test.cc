@@ -1,7 +1,9 @@
 // Maps, photographs and resection through the C interface, on a scene that is known exactly.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -16,6 +18,13 @@
 namespace lodemark::test {
 namespace {
 
+// So much memory has this process held at most.
+double PeakMemory_MB() {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
 constexpr lodemark_status kInvalid = LODEMARK_ERROR_INVALID_ARGUMENT;
 
 template <typename T>
@@ -29,6 +38,28 @@ double Distance(const double (&a)[3], const double (&b)[3]) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
+// Each pixel the mean of those up to reach_px away, along rows and then along columns.
+std::vector<std::uint8_t> Blurred(std::vector<std::uint8_t> image, int width_px, int reach_px) {
+  const int height_px = static_cast<int>(image.size()) / width_px;
+  const auto blur_line = [&](int first, int step, int count) {
+    std::vector<int> sums(static_cast<std::size_t>(count) + 1, 0);
+    for (int i = 0; i < count; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      sums[at + 1] = sums[at] + image[static_cast<std::size_t>(first + i * step)];
+    }
+    for (int i = 0; i < count; ++i) {
+      const int from = std::max(0, i - reach_px);
+      const int to = std::min(count, i + reach_px + 1);
+      const int sum = sums[static_cast<std::size_t>(to)] - sums[static_cast<std::size_t>(from)];
+      image[static_cast<std::size_t>(first + i * step)] =
+          static_cast<std::uint8_t>(sum / (to - from));
+    }
+  };
+  for (int y = 0; y < height_px; ++y) blur_line(y * width_px, 1, width_px);
+  for (int x = 0; x < width_px; ++x) blur_line(x, width_px, height_px);
+  return image;
+}
+
 class Photo : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -36,6 +67,7 @@ class Photo : public ::testing::Test {
     path_ =
         new std::string(::testing::TempDir() + "photo_test_" + std::to_string(getpid()) + ".map");
     scene_ = new PhotoScene(*path_);
+    ASSERT_EQ(scene_->problem, "");
   }
   static void TearDownTestSuite() {
     std::remove(path_->c_str());
@@ -194,10 +226,91 @@ TEST_F(Photo, SaysThatAPhotographIsOfElsewhere) {
   EXPECT_TRUE(pose_.verdict == LODEMARK_POSE_NOT_HERE || pose_.verdict == LODEMARK_POSE_TOO_FEW)
       << pose_.verdict;
   EXPECT_EQ(pose_.ecef_m[0], 0.0);
-  const std::vector<std::uint8_t> black(scene_->photo.size(), 0);
-  EXPECT_EQ(Locate(black), LODEMARK_NO_POSITION);
+}
+
+TEST_F(Photo, NothingToSeeGivesNoPosition) {
+  for (const int shade : {0, 128, 255}) {
+    const std::vector<std::uint8_t> blank(scene_->photo.size(), static_cast<std::uint8_t>(shade));
+    EXPECT_EQ(Locate(blank), LODEMARK_NO_POSITION) << shade;
+    EXPECT_EQ(pose_.verdict, LODEMARK_POSE_TOO_FEW) << shade;
+    EXPECT_EQ(pose_.ecef_m[0], 0.0) << shade;
+    EXPECT_EQ(count_, 0) << shade;
+  }
+}
+
+TEST_F(Photo, ABlurredPhotographIsOfHereOrOfNowhere) {
+  int poses = 0;
+  for (const int reach_px : {1, 2, 4, 8, 16, 40}) {
+    const lodemark_status status = Locate(Blurred(scene_->photo, scene_->lens.width_px, reach_px));
+    ASSERT_TRUE(status == LODEMARK_OK || status == LODEMARK_NO_POSITION) << lodemark_last_error();
+    if (status != LODEMARK_OK) continue;
+    ++poses;
+    EXPECT_LT(Distance(pose_.ecef_m, scene_->camera_in_ecef_m), 4.0 * pose_.accuracy_m) << reach_px;
+  }
+  EXPECT_GE(poses, 1);
+  EXPECT_LE(poses, 5);  // 80 px across is larger than anything painted
+}
+
+TEST_F(Photo, UpsideDownIsTheSamePlace) {
+  std::vector<std::uint8_t> turned = scene_->photo;
+  std::reverse(turned.begin(), turned.end());
+  ASSERT_EQ(Locate(turned), LODEMARK_OK) << lodemark_last_error();
+  EXPECT_LT(Distance(pose_.ecef_m, scene_->camera_in_ecef_m), 0.01);
+  EXPECT_NEAR(std::abs(pose_.roll_deg), 180.0, 0.02);
+}
+
+TEST_F(Photo, RowsMayLieFurtherApartThanTheyAreWide) {
+  ASSERT_EQ(Locate(scene_->photo), LODEMARK_OK);
+  const lodemark_pose tight = pose_;
+  const auto width = static_cast<std::size_t>(scene_->lens.width_px);
+  const std::size_t stride = width + 61;
+  const std::size_t rows = scene_->photo.size() / width;
+  std::vector<std::uint8_t> apart(stride * (rows - 1) + width, 77);  // the last row has no rest
+  for (std::size_t y = 0; y < rows; ++y) {
+    std::copy_n(scene_->photo.data() + y * width, width, apart.data() + y * stride);
+  }
+  ASSERT_EQ(
+      lodemark_map_locate(map_, &scene_->lens, apart.data(), static_cast<std::int64_t>(stride),
+                          nullptr, nullptr, nullptr, &pose_, nullptr, nullptr, 0, &count_),
+      LODEMARK_OK);
+  for (const int i : {0, 1, 2}) EXPECT_EQ(pose_.ecef_m[i], tight.ecef_m[i]);
+}
+
+TEST_F(Photo, OnePixelIsAPhotographAndNoneIsNot) {
+  lodemark_lens lens = scene_->lens;
+  lens.width_px = lens.height_px = 1;
+  lens.cx_px = lens.cy_px = 0.0;
+  const std::uint8_t pixel = 200;
+  const auto locate = [&] {
+    return lodemark_map_locate(map_, &lens, &pixel, 1, nullptr, nullptr, nullptr, &pose_, nullptr,
+                               nullptr, 0, &count_);
+  };
+  EXPECT_EQ(locate(), LODEMARK_NO_POSITION);
   EXPECT_EQ(pose_.verdict, LODEMARK_POSE_TOO_FEW);
-  EXPECT_EQ(count_, 0);
+  lens.width_px = lens.height_px = 0;
+  EXPECT_EQ(locate(), kInvalid);
+  EXPECT_NE(std::strstr(lodemark_last_error(), "lens"), nullptr) << lodemark_last_error();
+}
+
+TEST_F(Photo, FortyEightMegapixelsAreAnsweredInLittleMemory) {
+  lodemark_lens lens = scene_->lens;
+  lens.width_px = 8000;
+  lens.height_px = 6000;
+  lens.cx_px = 3999.5;
+  lens.cy_px = 2999.5;
+  std::vector<std::uint8_t> noise(48'000'000);
+  std::uint32_t state = 1;
+  for (std::uint8_t& pixel : noise) {
+    state = state * 1'664'525u + 1'013'904'223u;
+    pixel = static_cast<std::uint8_t>(state >> 24);
+  }
+  const double before_MB = PeakMemory_MB();
+  EXPECT_EQ(lodemark_map_locate(map_, &lens, noise.data(), 8000, nullptr, nullptr, nullptr, &pose_,
+                                nullptr, nullptr, 0, &count_),
+            LODEMARK_NO_POSITION);
+  EXPECT_EQ(pose_.ecef_m[0], 0.0);
+  EXPECT_LT(PeakMemory_MB() - before_MB, 1000.0);
+  RecordProperty("memory_MB", static_cast<int>(PeakMemory_MB() - before_MB));
 }
 
 TEST_F(Photo, TooFewSightsGiveNoPose) {
