@@ -81,7 +81,7 @@ class _Ours:
 
     def error_m(self, pose, truth):
         if pose is None:
-            return np.inf
+            return None
         geodetic = [float(truth[name]) for name in ("lat_deg", "lon_deg", "h_ell_m")]
         return np.linalg.norm(np.array(pose.ecef_m) - self.library.ecef_from_geodetic(geodetic))
 
@@ -136,7 +136,7 @@ class _Pycolmap:
 
     def error_m(self, answer, truth):
         if answer is None:
-            return np.inf
+            return None
         pose = answer["cam_from_world"]
         return np.linalg.norm(-pose.rotation.matrix().T @ pose.translation - _enu_m(truth))
 
@@ -165,12 +165,14 @@ def run(report, library, build, work, data, rounds):
                 seconds[key] += photo_seconds[key]
                 errors_m[key].append(program.error_m(answers[key], truth))
         for key in programs:
+            known_m = [error_m for error_m in errors_m[key] if error_m is not None]
             report.add(
                 "photos",
-                f"{name}, {len(scene.queries)} photographs",
+                name,
                 key,
                 1e3 * median(seconds[key]),
-                mean_cm=100 * float(np.mean(errors_m[key])),
-                worst_cm=100 * float(np.max(errors_m[key])),
+                located=f"{len(known_m)} of {len(scene.queries)}",
+                mean_cm=100 * float(np.mean(known_m)) if known_m else None,
+                worst_cm=100 * float(np.max(known_m)) if known_m else None,
             )
     return bool(folders)
