@@ -1,13 +1,15 @@
 #include "core/fusion/visual_range_group.h"
 
+#include <Eigen/Eigenvalues>
+
 #include "core/geo/geodetic.h"
 
 namespace lodemark {
 namespace {
 
-// Ranges from one pose to exact landmarks have a covariance of rank three. So much is added to
-// every variance, of its mean, that it can be inverted; a hundredth of a permille of a sigma.
-constexpr double kRidge = 1e-10;
+// Ranges from one pose to exact landmarks have a covariance of rank three: the other combinations
+// hold by geometry, but only at the pose itself. Variances so small beside the largest are those.
+constexpr double kExact = 1e-6;
 
 }  // namespace
 
@@ -15,18 +17,23 @@ void VisualRangeGroup::Set(std::span<const Eigen::Vector3d> points_in_ecef,
                            std::span<const double> ranges_m, const Eigen::MatrixXd& covariance_m2) {
   points_in_ecef_.assign(points_in_ecef.begin(), points_in_ecef.end());
   ranges_m_.assign(ranges_m.begin(), ranges_m.end());
-  Eigen::MatrixXd covariance = covariance_m2;
-  if (covariance.rows() > 0) {
-    covariance.diagonal().array() += kRidge * covariance_m2.diagonal().mean();
+  if (covariance_m2.rows() == 0) {
+    whitener_.resize(0, 0);
+    return;
   }
-  factor_.compute(covariance);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(covariance_m2);
+  const double least_m2 = kExact * axes.eigenvalues().maxCoeff();
+  const auto exact = static_cast<Eigen::Index>((axes.eigenvalues().array() <= least_m2).count());
+  const Eigen::Index kept = covariance_m2.rows() - exact;  // eigenvalues ascend
+  whitener_ = axes.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal() *
+              axes.eigenvectors().rightCols(kept).transpose();
 }
 
 PositionStatement VisualRangeGroup::At(const Eigen::Vector3d& point_in_ecef) {
   PositionStatement statement;
   statement.around_in_ecef = point_in_ecef;
   const auto count = static_cast<Eigen::Index>(points_in_ecef_.size());
-  if (count == 0 || factor_.info() != Eigen::Success) return statement;
+  if (whitener_.rows() == 0) return statement;
   const Eigen::Matrix3d enu_from_ecef = EnuFromEcefRotation(GeodeticFromEcef(point_in_ecef));
   Eigen::MatrixX3d slope(count, 3);
   Eigen::VectorXd misclosure(count);
@@ -37,9 +44,9 @@ PositionStatement VisualRangeGroup::At(const Eigen::Vector3d& point_in_ecef) {
     slope.row(i) = -(enu_from_ecef * line / distance_m).transpose();
     misclosure[i] = ranges_m_[k] - distance_m;
   }
-  const Eigen::MatrixX3d weighted = factor_.solve(slope);
-  statement.information_pm2 = slope.transpose() * weighted;
-  statement.pull_pm = weighted.transpose() * misclosure;
+  const Eigen::MatrixX3d whitened = whitener_ * slope;
+  statement.information_pm2 = whitened.transpose() * whitened;
+  statement.pull_pm = whitened.transpose() * (whitener_ * misclosure);
   return statement;
 }
 

@@ -1,7 +1,6 @@
 // Visual ranges whose errors are correlated: those of one photograph.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <span>
 #include <vector>
@@ -14,7 +13,8 @@ namespace lodemark {
 // come from one resected pose. Not robust: what is mistaken the resection has left out.
 class VisualRangeGroup : public PositionWitness {
  public:
-  // points_in_ecef: of the landmarks. covariance_m2: n x n, positive semidefinite. Keeps copies.
+  // points_in_ecef: of the landmarks. covariance_m2: n x n, positive semidefinite: combinations of
+  // ranges that it claims to be exact follow from the others, and are left out. Keeps copies.
   void Set(std::span<const Eigen::Vector3d> points_in_ecef, std::span<const double> ranges_m,
            const Eigen::MatrixXd& covariance_m2);
 
@@ -27,7 +27,7 @@ class VisualRangeGroup : public PositionWitness {
  private:
   std::vector<Eigen::Vector3d> points_in_ecef_;
   std::vector<double> ranges_m_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::MatrixXd whitener_;  // rows: independent combinations of the ranges, in sigmas
 };
 
 }  // namespace lodemark
