@@ -206,6 +206,7 @@ bool Session::ProcessNext() {
   const bool frame_first =
       has_frame && (s.count == 0 || s.photos.next_time_ns() <= s.ring[s.first].time_ns);
   s.estimate = SessionEstimate();
+  s.statuses.clear();
   s.landmarks.clear();
   if (frame_first) {
     s.ProcessFrame();
@@ -222,7 +223,6 @@ void Session::Impl::ProcessEpoch() {
   if (count == 0) first = 0;  // the same few slots again and again
   estimate.time_ns = queued->time_ns;
   estimate.time_gps_ns = queued->epoch.time_gps_ns;
-  statuses.clear();
   events.SetTime(queued->time_ns, queued->epoch.time_gps_ns);
   if (Admit(queued)) Process(queued);
 }

@@ -238,7 +238,7 @@ class Session {
   std::int32_t queued() const;  // epochs and photographs
 
   const SessionEstimate& estimate() const;
-  std::span<const SatelliteStatus> satellites() const;  // of the last epoch processed
+  std::span<const SatelliteStatus> satellites() const;  // of the epoch processed last
   std::span<const LandmarkStatus> landmarks() const;    // of the photograph the estimate looked at
   // Events since the last call of ClearEvents, at most 256; the oldest give way.
   std::span<const SessionEvent> events() const;

@@ -1,7 +1,9 @@
 // lodemark replay: a recording through the C interface, epoch by epoch, into a run folder.
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +13,7 @@
 #include "tools/lodemark/replay_inputs.h"
 #include "tools/lodemark/replay_measurements.h"
 #include "tools/lodemark/replay_options.h"
+#include "tools/lodemark/replay_photos.h"
 #include "tools/lodemark/replay_session.h"
 #include "tools/lodemark/replay_summary.h"
 #include "tools/lodemark/run_writer.h"
@@ -85,27 +88,42 @@ ordered_json RunJson(const ReplayOptions& options, const ReplayInputs& inputs) {
   }
   for (const std::string& path : inputs.navigation) add("navigation", path);
   for (const std::string& path : inputs.precise_orbits) add("precise_orbits", path);
+  if (!options.request.map.empty()) add("map", options.request.map);
+  if (!inputs.photos.list.empty()) {
+    add("photographs", inputs.photos.list);
+    add("camera", inputs.photos.camera);
+  }
   return {{"program", "lodemark"},
           {"version", VersionText()},
           {"library", lodemark_version()},
           {"recording", inputs.name},
           {"command", CommandLineOf(options)},
-          {"scheme", options.scheme},
+          {"scheme", SchemeOf(options)},
           {"seed", options.seed},
           {"inputs", files}};
 }
 
+ordered_json PhotosJson(const PhotoCounts& counts, const ReplaySummary& summary) {
+  ordered_json json = {{"listed", counts.listed},
+                       {"looked_up", counts.pushed},
+                       {"left_out", counts.left_out},
+                       {"estimates", summary.Photos()},
+                       {"mean_landmarks_used", summary.mean_landmarks_used()}};
+  if (!counts.first_problem.empty()) json["first_problem"] = counts.first_problem;
+  return json;
+}
+
 ordered_json SummaryJson(const ReplayInputs& inputs, const MeasurementSource& source,
-                         const ReplaySummary& summary, double elapsed_s) {
+                         const std::optional<PhotoSource>& photos, const ReplaySummary& summary,
+                         double elapsed_s) {
   const auto accuracy = [](const std::optional<double>& median, const std::optional<double>& p95) {
     return median ? ordered_json{{"median", *median}, {"p95", *p95}} : ordered_json();
   };
   const MeasurementCounts& counts = source.counts();
   const ReadReport& report = source.report();
-  ordered_json json = {
-      {"recording", inputs.name},       {"epochs", summary.epochs()},
-      {"answered", summary.answered()}, {"coverage", summary.coverage()},
-      {"status", summary.Outcomes()},   {"sources", {{"gnss", summary.answered()}}}};
+  ordered_json json = {{"recording", inputs.name},       {"epochs", summary.epochs()},
+                       {"answered", summary.answered()}, {"coverage", summary.coverage()},
+                       {"status", summary.Outcomes()},   {"sources", summary.Sources()}};
   if (summary.first_gps_ns()) {
     json["first_time_gps_ns"] = *summary.first_gps_ns();
     json["last_time_gps_ns"] = summary.last_gps_ns();
@@ -128,6 +146,7 @@ ordered_json SummaryJson(const ReplayInputs& inputs, const MeasurementSource& so
                           {"unknown_constellation", counts.unknown_constellation},
                           {"broadcast_messages_taken", counts.broadcast_taken},
                           {"broadcast_messages_refused", counts.broadcast_refused}};
+  if (photos) json["photographs"] = PhotosJson(photos->counts(), summary);
   json["timing"] = {
       {"elapsed_s", elapsed_s},
       {"ms_per_epoch",
@@ -135,29 +154,49 @@ ordered_json SummaryJson(const ReplayInputs& inputs, const MeasurementSource& so
   return json;
 }
 
-Status ReplayAll(MeasurementSource* source, ReplaySession* session, RunWriter* writer,
-                 ReplaySummary* summary) {
+// Processes what waits first, and writes what it gave. False if nothing waited.
+Result<bool> ReplayOne(ReplaySession* session, RunWriter* writer, ReplaySummary* summary) {
+  const Result<bool> processed = session->Process();
+  if (!processed || !*processed) return processed;
+  writer->WriteEvents(session->events());
+  summary->AddEvents(session->events());
+  const lodemark_estimate& estimate = session->estimate();
+  // An epoch dropped for its time has no outcome, and a row needs a time.
+  if (estimate.outcome == LODEMARK_OUTCOME_NO_DATA ||
+      (estimate.present & LODEMARK_ESTIMATE_HAS_GPS_TIME) == 0) {
+    summary->AddDroppedEpoch();
+    return true;
+  }
+  writer->WriteEpoch(estimate, session->satellites(), session->landmarks());
+  summary->AddEpoch(estimate, session->satellites());
+  return true;
+}
+
+Status ReplayAll(MeasurementSource* source, PhotoSource* photos, ReplaySession* session,
+                 RunWriter* writer, ReplaySummary* summary) {
   ProgressBar progress("Replaying", StderrIsTerminal());
+  // Photographs up to a time, one by one, each taken before the epoch that waits after it.
+  const auto replay_photos = [&](std::int64_t until_gps_ns) -> Status {
+    while (photos != nullptr && writer->ok() && photos->PushNext(until_gps_ns, session)) {
+      const Result<bool> processed = ReplayOne(session, writer, summary);
+      if (!processed) return processed.error();
+      progress.Update(source->progress());
+    }
+    return {};
+  };
   while (source->PushNext(session)) {
+    const Status before = replay_photos(source->time_gps_ns());
+    if (!before.ok()) return before;
     for (;;) {
-      const Result<bool> processed = session->Process();
+      const Result<bool> processed = ReplayOne(session, writer, summary);
       if (!processed) return processed.error();
       if (!*processed) break;
-      writer->WriteEvents(session->events());
-      summary->AddEvents(session->events());
-      const lodemark_estimate& estimate = session->estimate();
-      // An epoch dropped for its time has no outcome, and a row needs a time.
-      if (estimate.outcome == LODEMARK_OUTCOME_NO_DATA ||
-          (estimate.present & LODEMARK_ESTIMATE_HAS_GPS_TIME) == 0) {
-        summary->AddDroppedEpoch();
-        continue;
-      }
-      writer->WriteEpoch(estimate, session->satellites());
-      summary->AddEpoch(estimate, session->satellites());
     }
     if (!writer->ok()) break;
     progress.Update(source->progress());
   }
+  const Status rest = replay_photos(std::numeric_limits<std::int64_t>::max());
+  if (!rest.ok()) return rest;
   return writer->Finish();
 }
 
@@ -212,8 +251,19 @@ int RunReplay(const ReplayOptions& options) {
   const Status orbits = PushOrbits(*inputs, &*session, &remarks);
   if (!orbits.ok()) return ReportError(orbits.error());
 
+  std::optional<PhotoSource> photos;
+  if (!options.request.map.empty()) {
+    const Status used = session->UseMap(options.request.map);
+    if (!used.ok()) return ReportError(used.error());
+    if (!inputs->photos.list.empty()) {
+      Result<PhotoSource> opened = PhotoSource::Open(inputs->photos);
+      if (!opened) return ReportError(opened.error());
+      photos = std::move(*opened);
+    }
+  }
+
   RunWriter writer;
-  const Status opened = writer.Open(options.out);
+  const Status opened = writer.Open(options.out, photos.has_value());
   if (!opened.ok()) return ReportError(opened.error());
   const auto write = [&](const char* name, const ordered_json& json) {
     return WriteFileWhole((fs::path(options.out) / name).string(), JsonText(json));
@@ -222,11 +272,12 @@ int RunReplay(const ReplayOptions& options) {
   if (!begun.ok()) return ReportError(begun.error());
 
   ReplaySummary summary;
-  const Status replayed = ReplayAll(source->get(), &*session, &writer, &summary);
+  const Status replayed =
+      ReplayAll(source->get(), photos ? &*photos : nullptr, &*session, &writer, &summary);
   if (!replayed.ok()) return ReportError(replayed.error());
 
   const double elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
-  const ordered_json summary_json = SummaryJson(*inputs, **source, summary, elapsed_s);
+  const ordered_json summary_json = SummaryJson(*inputs, **source, photos, summary, elapsed_s);
   const Status written = write("summary.json", summary_json);
   if (!written.ok()) return ReportError(written.error());
   if (options.json) {
@@ -234,14 +285,19 @@ int RunReplay(const ReplayOptions& options) {
   } else if (summary.epochs() > 0) {
     PrintResult(inputs->name + "\n" + SummaryText(summary, elapsed_s, StdoutIsTerminal()) +
                 "  written to " + options.out +
-                ": trajectory.csv, trajectory.tum, satellites.csv, events.jsonl, summary.json, "
-                "run.json\n");
+                ": trajectory.csv, trajectory.tum, satellites.csv, " +
+                (photos ? "landmarks.csv, " : "") + "events.jsonl, summary.json, run.json\n");
   }
   FlushResults();
 
   // A file that ended early, or gave nothing at all, matters more than what came of it.
   const Status verdict = (*source)->Verdict();
   AddRemarks(*inputs, **source, summary, &remarks);
+  if (photos && photos->counts().left_out > 0) {
+    remarks.Add(GroupDigits(photos->counts().left_out) + " of " +
+                GroupDigits(photos->counts().listed) +
+                " photographs left out, the first: " + photos->counts().first_problem);
+  }
   if (verdict.ok() || summary.epochs() > 0) {
     for (const std::string& sentence : remarks.sentences) PrintMessage(sentence);
   }

@@ -117,6 +117,32 @@ Status FromFolder(const std::string& folder, ReplayInputs* inputs) {
                    "observation file or a Kaggle csv"};
 }
 
+// Photographs lie in cam0, as in recordings of EuRoC.
+Status FindPhotos(const ReplayRequest& request, ReplayInputs* inputs) {
+  if (request.map.empty()) return {};
+  const fs::path cam0 = fs::path(request.recording) / "cam0";
+  const fs::path list = cam0 / "data.csv";
+  std::error_code ignored;
+  if (request.recording.empty() || !fs::exists(list, ignored)) {
+    inputs->remarks.push_back((request.recording.empty() ? "--map" : list.string()) +
+                              std::string(": there are no photographs to look up in the map; a "
+                                          "recording has them in cam0, listed in cam0/data.csv"));
+    return {};
+  }
+  inputs->photos.list = list.string();
+  inputs->photos.folder =
+      fs::is_directory(cam0 / "data", ignored) ? (cam0 / "data").string() : cam0.string();
+  for (const fs::path& camera :
+       {cam0 / "camera.json", fs::path(request.recording) / "camera.json"}) {
+    if (!fs::exists(camera, ignored)) continue;
+    inputs->photos.camera = camera.string();
+    return {};
+  }
+  return Error{ErrorCode::kBadData, (cam0 / "camera.json").string() +
+                                        ": is missing; photographs need the camera that took "
+                                        "them, see 'lodemark calibrate'"};
+}
+
 }  // namespace
 
 Error WithAdvice(Error error, const std::string& wanted) {
@@ -157,6 +183,8 @@ Result<ReplayInputs> FindReplayInputs(const ReplayRequest& request) {
     inputs.precise_orbits.push_back(path);
   }
   if (request.broadcast_only) inputs.precise_orbits.clear();
+  const Status photos = FindPhotos(request, &inputs);
+  if (!photos.ok()) return photos.error();
   return inputs;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "tools/lodemark/replay_photos.h"
 
 namespace lodemark {
 
@@ -16,6 +17,7 @@ struct ReplayRequest {
   std::vector<std::string> navigation;
   std::vector<std::string> precise_orbits;
   bool broadcast_only = false;
+  std::string map;  // empty: photographs are not looked at
 };
 
 struct ReplayInputs {
@@ -26,6 +28,7 @@ struct ReplayInputs {
   std::string measurements;
   std::vector<std::string> navigation;
   std::vector<std::string> precise_orbits;
+  PhotoFiles photos;                 // where a map is named and the recording has any
   std::vector<std::string> remarks;  // what the user should know, one sentence each
 };
 

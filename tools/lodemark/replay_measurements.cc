@@ -28,6 +28,11 @@ std::int64_t CountUnknown(const AndroidEpoch& epoch) {
   return count;
 }
 
+// By the phone's clock, within some milliseconds.
+std::int64_t GpsTimeOf(const AndroidClock& clock) {
+  return (clock.present & kClockHasFullBias) != 0 ? clock.time_ns - clock.full_bias_ns : 0;
+}
+
 std::string FirstProblemOf(const ReadReport& report) {
   if (report.problems.empty()) return "";
   const ReadProblem& problem = report.problems.front();
@@ -41,6 +46,7 @@ class GnssLogSource final : public MeasurementSource {
 
   const ReadReport& report() const override { return reader_.report(); }
   double progress() const override { return reader_.progress(); }
+  std::int64_t time_gps_ns() const override { return time_gps_ns_; }
 
   Status Verdict() const override {
     if (!reader_.status().ok() || counts_.epochs > 0) return reader_.status();
@@ -62,6 +68,7 @@ class GnssLogSource final : public MeasurementSource {
         // The message just before an epoch is younger than the epoch before.
         PushWaiting(session);
         counts_.unknown_constellation += CountUnknown(*epoch);
+        time_gps_ns_ = GpsTimeOf(epoch->clock);
         Count(session->Push(*epoch));
         return true;
       }
@@ -89,6 +96,7 @@ class GnssLogSource final : public MeasurementSource {
   GnssLoggerReader reader_;
   GnssLoggerRecord record_;
   std::deque<LoggedNavigationMessage> waiting_;
+  std::int64_t time_gps_ns_ = 0;
 };
 
 class KaggleSource final : public MeasurementSource {
@@ -97,6 +105,7 @@ class KaggleSource final : public MeasurementSource {
 
   const ReadReport& report() const override { return reader_.report(); }
   double progress() const override { return reader_.progress(); }
+  std::int64_t time_gps_ns() const override { return GpsTimeOf(epoch_.raw.clock); }
 
   Status Verdict() const override {
     if (!reader_.status().ok() || counts_.epochs > 0) return reader_.status();
@@ -122,6 +131,7 @@ class ObservationSource final : public MeasurementSource {
 
   const ReadReport& report() const override { return reader_.report(); }
   double progress() const override { return reader_.progress(); }
+  std::int64_t time_gps_ns() const override { return epoch_.time_gps_ns; }
 
   Status Verdict() const override {
     if (!reader_.status().ok() || counts_.epochs > 0) return reader_.status();

@@ -30,6 +30,8 @@ class MeasurementSource {
   const MeasurementCounts& counts() const { return counts_; }
   virtual const ReadReport& report() const = 0;
   virtual double progress() const = 0;
+  // Time of the epoch pushed last, 0 if it has none.
+  virtual std::int64_t time_gps_ns() const = 0;
   // Why the file ended early, or why all of it gave nothing. Ask after the end.
   virtual Status Verdict() const = 0;
 

@@ -17,9 +17,11 @@ const std::vector<std::string> kWeights = {"signal", "elevation"};
 static_assert(LODEMARK_IONOSPHERE_CLIMATOLOGY == 5 && LODEMARK_IONOSPHERE_NTCM_G == 4);
 static_assert(LODEMARK_TROPOSPHERE_NONE == 2 && LODEMARK_WEIGHT_ELEVATION == 1);
 
+const std::vector<std::string> kSchemes = {"joint", "tight", "tight-diagonal", "vision", "gnss"};
+static_assert(LODEMARK_SCHEME_VISION == 3 && LODEMARK_SCHEME_GNSS == 4);
+
 // What the design names and a later version will do.
-const std::vector<std::string> kLaterSchemes = {"vision",  "tight",  "joint", "ekf",
-                                                "ekf-imu", "window", "batch"};
+const std::vector<std::string> kLaterSchemes = {"ekf", "ekf-imu", "window", "batch"};
 
 // In an option of the C interface zero stands for the default; this is as good as zero.
 constexpr double kAlmostZero = 1e-9;
@@ -60,7 +62,11 @@ void DeclareReplayOptions(CLI::App& command, ReplayOptions* options) {
   command.add_option("--sp3", request.precise_orbits, "Precise orbits and clocks")->group(files);
 
   const std::string estimation = "Estimation";
-  command.add_option("--scheme", options->scheme, "gnss, the only one in this version")
+  command.add_option("--map", request.map, "Map to look the recording's photographs up in")
+      ->group(estimation);
+  command
+      .add_option("--scheme", options->scheme,
+                  "joint, tight, tight-diagonal, vision or gnss; joint with a map, else gnss")
       ->group(estimation);
   command.add_option("--systems", options->systems, "Only these: letters of GRECJIS")
       ->group(estimation);
@@ -110,6 +116,11 @@ void DeclareReplayOptions(CLI::App& command, ReplayOptions* options) {
   command.add_flag("--json", options->json, "Print the summary as JSON");
 }
 
+std::string SchemeOf(const ReplayOptions& options) {
+  if (!options.scheme.empty()) return options.scheme;
+  return options.request.map.empty() ? "gnss" : "joint";
+}
+
 Result<lodemark_session_options> SessionOptionsOf(const ReplayOptions& options) {
   const auto usage = [](std::string text) {
     return Error{ErrorCode::kInvalidArgument, std::move(text)};
@@ -117,10 +128,18 @@ Result<lodemark_session_options> SessionOptionsOf(const ReplayOptions& options) 
   const ReplayRequest& request = options.request;
   if (std::find(kLaterSchemes.begin(), kLaterSchemes.end(), options.scheme) !=
       kLaterSchemes.end()) {
-    return usage("--scheme " + options.scheme + ": not in this version, which has gnss only");
+    return usage("--scheme " + options.scheme +
+                 ": not in this version; choose from joint, tight, tight-diagonal, vision, gnss");
   }
-  if (options.scheme != "gnss") {
-    return usage("--scheme " + options.scheme + ": no such scheme; this version has gnss only");
+  const std::string scheme = SchemeOf(options);
+  if (std::find(kSchemes.begin(), kSchemes.end(), scheme) == kSchemes.end()) {
+    return usage("--scheme " + scheme +
+                 ": no such scheme; choose from joint, tight, tight-diagonal, vision, gnss");
+  }
+  if (scheme != "gnss" && options.request.map.empty()) {
+    return usage("--scheme " + scheme +
+                 ": needs photographs and the map they show; name it with "
+                 "--map");
   }
   const int named = (request.recording.empty() ? 0 : 1) + (request.log.empty() ? 0 : 1) +
                     (request.observation.empty() ? 0 : 1);
@@ -145,6 +164,7 @@ Result<lodemark_session_options> SessionOptionsOf(const ReplayOptions& options) 
   flag(options.height_memory, LODEMARK_SESSION_HEIGHT_MEMORY);
   flag(options.fixed_biases, LODEMARK_SESSION_FIXED_BIASES);
   flag(options.accept_unhealthy, LODEMARK_SESSION_ACCEPT_UNHEALTHY);
+  to.scheme = IndexIn(kSchemes, scheme);
   to.ionosphere = IndexIn(kIonospheres, options.ionosphere);
   to.troposphere = IndexIn(kTropospheres, options.troposphere);
   to.weight = IndexIn(kWeights, options.weight);
@@ -175,6 +195,8 @@ std::vector<std::string> CommandLineOf(const ReplayOptions& options) {
   if (!request.observation.empty()) add("--obs", request.observation);
   add_files("--nav", request.navigation);
   add_files("--sp3", request.precise_orbits);
+  if (!request.map.empty()) add("--map", request.map);
+  if (!options.scheme.empty()) add("--scheme", options.scheme);
   if (!options.systems.empty()) add("--systems", options.systems);
   if (request.broadcast_only) line.emplace_back("--broadcast");
   if (options.ionosphere != standard.ionosphere) add("--ionosphere", options.ionosphere);

@@ -21,7 +21,7 @@ struct ReplayOptions {
   std::string out;
   bool json = false;
 
-  std::string scheme = "gnss";
+  std::string scheme;   // empty: joint where there is a map, else gnss
   std::string systems;  // letters of RINEX; empty: all
   std::string ionosphere = "best";
   std::string troposphere = "saastamoinen";
@@ -39,6 +39,9 @@ struct ReplayOptions {
 };
 
 void DeclareReplayOptions(CLI::App& command, ReplayOptions* options);
+
+// The one asked for, or the one that the inputs suggest.
+std::string SchemeOf(const ReplayOptions& options);
 
 // Fails with one sentence where the options make no sense, or none in this version.
 Result<lodemark_session_options> SessionOptionsOf(const ReplayOptions& options);

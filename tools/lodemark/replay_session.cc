@@ -128,7 +128,7 @@ Error LastError(lodemark_status status) {
 }
 
 ReplaySession::ReplaySession(lodemark_session* session)
-    : session_(session), satellites_(kSignals), events_(kEvents) {
+    : session_(session), satellites_(kSignals), landmarks_(1), events_(kEvents) {
   // So that an epoch without signals has an array too.
   measurements_.reserve(kSignals);
   observations_.reserve(kSignals);
@@ -192,9 +192,24 @@ Status ReplaySession::Push(const LoggedNavigationMessage& message) {
                                                   message.bytes.size()));
 }
 
+Status ReplaySession::UseMap(const std::string& path) {
+  lodemark_map* map = nullptr;
+  lodemark_status status = lodemark_map_open(path.c_str(), &map);
+  if (status < LODEMARK_OK) return LastError(status);
+  map_.reset(map);
+  return ToStatus(lodemark_session_use_map(session_.get(), map));
+}
+
+Status ReplaySession::Push(const lodemark_frame& frame, const lodemark_lens& lens,
+                           const std::vector<std::uint8_t>& pixels) {
+  return ToStatus(
+      lodemark_session_push_image(session_.get(), &frame, &lens, pixels.data(), lens.width_px));
+}
+
 Result<bool> ReplaySession::Process() {
   event_count_ = 0;
   satellite_count_ = 0;
+  landmark_count_ = 0;
   const lodemark_status status = lodemark_session_process(session_.get());
   if (status == LODEMARK_NOTHING_QUEUED) return false;
   if (status < LODEMARK_OK) return LastError(status);
@@ -211,6 +226,10 @@ Status ReplaySession::Fetch() {
     return lodemark_session_satellites(session_.get(), out, capacity, &satellite_count_);
   });
   if (status < LODEMARK_OK) return LastError(status);
+  status = FetchList(&landmarks_, &landmark_count_, [&](lodemark_landmark* out, int capacity) {
+    return lodemark_session_landmarks(session_.get(), out, capacity, &landmark_count_);
+  });
+  if (status < LODEMARK_OK) return LastError(status);
   status = FetchList(&events_, &event_count_, [&](lodemark_event* out, int capacity) {
     return lodemark_session_events(session_.get(), out, capacity, &event_count_);
   });
@@ -221,6 +240,10 @@ Status ReplaySession::Fetch() {
 
 std::span<const lodemark_satellite> ReplaySession::satellites() const {
   return {satellites_.data(), static_cast<std::size_t>(satellite_count_)};
+}
+
+std::span<const lodemark_landmark> ReplaySession::landmarks() const {
+  return {landmarks_.data(), static_cast<std::size_t>(landmark_count_)};
 }
 
 std::span<const lodemark_event> ReplaySession::events() const {

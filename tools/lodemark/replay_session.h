@@ -31,13 +31,19 @@ class ReplaySession {
   Status Push(const ObservationEpoch& epoch);
   // Fails with kOutOfOrder as long as no epoch gave a GPS time.
   Status Push(const LoggedNavigationMessage& message);
+  // Photographs are looked up in it from now on.
+  Status UseMap(const std::string& path);
+  // A grey photograph of the lens's size, rows one after another.
+  Status Push(const lodemark_frame& frame, const lodemark_lens& lens,
+              const std::vector<std::uint8_t>& pixels);
 
-  // Processes the oldest waiting epoch, and fetches what it gave. False if none waits.
+  // Processes the oldest that waits, and fetches what it gave. False if none waits.
   Result<bool> Process();
 
   // Of the epoch processed last.
   const lodemark_estimate& estimate() const { return estimate_; }
   std::span<const lodemark_satellite> satellites() const;
+  std::span<const lodemark_landmark> landmarks() const;
   // What happened in the latest call of Process.
   std::span<const lodemark_event> events() const;
 
@@ -49,13 +55,20 @@ class ReplaySession {
   explicit ReplaySession(lodemark_session* session);
   Status Fetch();
 
+  struct MapCloser {
+    void operator()(lodemark_map* map) const { lodemark_map_close(map); }
+  };
+
+  std::unique_ptr<lodemark_map, MapCloser> map_;  // outlives the session
   std::unique_ptr<lodemark_session, Closer> session_;
   std::vector<lodemark_gnss_measurement> measurements_;
   std::vector<lodemark_observation> observations_;
   lodemark_estimate estimate_ = {};
   std::vector<lodemark_satellite> satellites_;
+  std::vector<lodemark_landmark> landmarks_;
   std::vector<lodemark_event> events_;
   std::int32_t satellite_count_ = 0;
+  std::int32_t landmark_count_ = 0;
   std::int32_t event_count_ = 0;
 };
 

@@ -74,8 +74,11 @@ void ReplaySummary::AddEpoch(const lodemark_estimate& estimate,
   last_gps_ns_ = std::max(last_gps_ns_, before_gps_ns_);
   satellites_seen_ += estimate.satellites_seen;
   CountAt(estimate.outcome, &outcomes_);
+  CountAt(estimate.photo, &photos_);
+  landmarks_used_ += estimate.landmarks_used;
   if ((estimate.present & LODEMARK_ESTIMATE_HAS_POSITION) != 0) {
     ++answered_;
+    CountAt(static_cast<std::int32_t>(estimate.sources), &sources_);
     satellites_used_ += estimate.satellites_used;
     accuracies_m_.push_back(static_cast<float>(estimate.accuracy_m));
     vertical_accuracies_m_.push_back(static_cast<float>(estimate.vertical_accuracy_m));
@@ -143,6 +146,31 @@ std::string ReplaySummary::SystemsWithoutEphemeris() const {
   return letters;
 }
 
+std::map<std::string, std::int64_t> ReplaySummary::Sources() const {
+  static constexpr const char* kWords[] = {"", "gnss", "vision", "gnss+vision"};
+  std::map<std::string, std::int64_t> counts;
+  for (std::size_t i = 1; i < sources_.size(); ++i) {
+    if (sources_[i] > 0) counts[kWords[i]] = sources_[i];
+  }
+  return counts;
+}
+
+std::map<std::string, std::int64_t> ReplaySummary::Photos() const {
+  static constexpr const char* kWords[] = {"", "used", "not_recognised", "disagreeing",
+                                           "contradicted"};
+  static_assert(std::size(kWords) == LODEMARK_PHOTO_CONTRADICTED + 1);
+  std::map<std::string, std::int64_t> counts;
+  for (std::size_t i = 1; i < photos_.size(); ++i) {
+    if (photos_[i] > 0) counts[kWords[i]] = photos_[i];
+  }
+  return counts;
+}
+
+double ReplaySummary::mean_landmarks_used() const {
+  const std::int64_t count = photos_[LODEMARK_PHOTO_USED];
+  return count > 0 ? static_cast<double>(landmarks_used_) / static_cast<double>(count) : 0.0;
+}
+
 std::string SummaryText(const ReplaySummary& summary, double elapsed_s, bool decorate) {
   const std::string strong = decorate ? "\033[1m" : "";
   const std::string faint = decorate ? "\033[2m" : "";
@@ -163,6 +191,11 @@ std::string SummaryText(const ReplaySummary& summary, double elapsed_s, bool dec
         Format("stated horizontally (68 %%), median; %.1f m for 95 %% of the epochs; %.1f m in "
                "height",
                *summary.Accuracy_m(0.95), *summary.VerticalAccuracy_m(0.5)));
+  }
+  if (const std::map<std::string, std::int64_t> photos = summary.Photos(); !photos.empty()) {
+    row("landmarks", Format("%.1f", summary.mean_landmarks_used()),
+        "used on average; " + CountsText(summary.Sources()) +
+            "; photograph: " + CountsText(photos));
   }
   const std::map<std::string, std::int64_t> events = summary.Events();
   std::int64_t event_count = 0;

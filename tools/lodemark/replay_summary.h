@@ -29,6 +29,11 @@ class ReplaySummary {
   double coverage() const;
   double mean_satellites_used() const;  // of the answered epochs
   double mean_satellites_seen() const;  // of all epochs
+  // Estimates by what they rest on ("gnss", "vision", "gnss+vision").
+  std::map<std::string, std::int64_t> Sources() const;
+  // Estimates by what the photograph gave them, those with one near.
+  std::map<std::string, std::int64_t> Photos() const;
+  double mean_landmarks_used() const;  // of those that used a photograph
   std::optional<std::int64_t> first_gps_ns() const { return first_gps_ns_; }
   std::int64_t last_gps_ns() const { return last_gps_ns_; }
   // Median time between epochs, 0 if there is but one.
@@ -67,9 +72,12 @@ class ReplaySummary {
   std::vector<float> accuracies_m_;
   std::vector<float> vertical_accuracies_m_;
   std::array<std::int64_t, LODEMARK_OUTCOME_AMBIGUOUS + 1> outcomes_ = {};
-  std::array<std::int64_t, LODEMARK_VERDICT_UNOBSERVABLE + 1> verdicts_ = {};
-  std::array<std::int64_t, LODEMARK_EVENT_EPHEMERIS_MISSING + 1> events_ = {};
+  std::array<std::int64_t, LODEMARK_VERDICT_PHOTO_NOT_USED + 1> verdicts_ = {};
+  std::array<std::int64_t, LODEMARK_EVENT_PHOTO_FAILED + 1> events_ = {};
   std::array<SystemCount, kSystems> systems_;
+  std::array<std::int64_t, 4> sources_ = {};  // by their bits
+  std::array<std::int64_t, LODEMARK_PHOTO_CONTRADICTED + 1> photos_ = {};
+  std::int64_t landmarks_used_ = 0;
 };
 
 // The lines below the name of the run.

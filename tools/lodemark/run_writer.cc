@@ -15,28 +15,37 @@ namespace fs = std::filesystem;
 constexpr auto kLongestUnwritten = std::chrono::milliseconds(200);
 
 constexpr const char* kFiles[] = {"trajectory.csv", "trajectory.tum", "satellites.csv",
-                                  "events.jsonl",   "summary.json",   "run.json"};
+                                  "landmarks.csv",  "events.jsonl",   "summary.json",
+                                  "run.json"};
 
 constexpr const char* kVerdictWords[] = {
     "used",          "down_weighted", "no_ephemeris",   "ephemeris_too_old", "unhealthy",
     "low_elevation", "weak_signal",   "not_tracking",   "time_ambiguous",    "implausible",
-    "outlier",       "system_off",    "unknown_signal", "unobservable"};
-static_assert(std::size(kVerdictWords) == LODEMARK_VERDICT_UNOBSERVABLE + 1);
+    "outlier",       "system_off",    "unknown_signal", "unobservable",      "photo_not_used"};
+static_assert(std::size(kVerdictWords) == LODEMARK_VERDICT_PHOTO_NOT_USED + 1);
 
 constexpr const char* kOutcomeWords[] = {"no_data",      "fix",           "too_few_satellites",
                                          "no_ephemeris", "not_converged", "inconsistent",
                                          "ambiguous"};
 static_assert(std::size(kOutcomeWords) == LODEMARK_OUTCOME_AMBIGUOUS + 1);
 
-constexpr const char* kEventWords[] = {"clock_discontinuity", "millisecond_jump", "time_backwards",
-                                       "duplicate_epoch",     "first_fix",        "fix_lost",
-                                       "ephemeris_missing"};
-static_assert(std::size(kEventWords) == LODEMARK_EVENT_EPHEMERIS_MISSING + 1);
+constexpr const char* kEventWords[] = {
+    "clock_discontinuity", "millisecond_jump",   "time_backwards",
+    "duplicate_epoch",     "first_fix",          "fix_lost",
+    "ephemeris_missing",   "photo_contradicted", "photo_failed"};
+static_assert(std::size(kEventWords) == LODEMARK_EVENT_PHOTO_FAILED + 1);
 
 template <std::size_t kCount>
 const char* WordOf(const char* const (&words)[kCount], std::int32_t value) {
   const auto index = static_cast<std::size_t>(value);
   return value >= 0 && index < kCount ? words[index] : "unknown";
+}
+
+const char* SourcesWord(std::uint32_t sources) {
+  const bool gnss = (sources & LODEMARK_SOURCE_GNSS) != 0;
+  const bool vision = (sources & LODEMARK_SOURCE_VISION) != 0;
+  if (gnss && vision) return "gnss+vision";
+  return gnss ? "gnss" : vision ? "vision" : "";
 }
 
 // What an event's value means, where it means something.
@@ -71,7 +80,7 @@ Status CheckRunFolder(const std::string& folder) {
                folder + ": holds files that are no run; name a new or empty folder"};
 }
 
-Status RunWriter::Open(const std::string& folder) {
+Status RunWriter::Open(const std::string& folder, bool with_landmarks) {
   const Status checked = CheckRunFolder(folder);
   if (!checked.ok()) return checked;
   std::error_code failure;
@@ -84,16 +93,25 @@ Status RunWriter::Open(const std::string& folder) {
     std::error_code ignored;
     fs::remove(JoinedPath(folder, name), ignored);
   }
-  RowWriter* const writers[] = {&trajectory_, &places_, &satellites_, &events_};
-  for (std::size_t i = 0; i < std::size(writers); ++i) {
-    const Status opened = writers[i]->Open(JoinedPath(folder, kFiles[i]));
-    if (!opened.ok()) return opened;
-  }
+  const auto open = [&](RowWriter* writer, const char* name) {
+    return writer->Open(JoinedPath(folder, name));
+  };
+  Status opened = open(&trajectory_, "trajectory.csv");
+  if (opened.ok()) opened = open(&places_, "trajectory.tum");
+  if (opened.ok()) opened = open(&satellites_, "satellites.csv");
+  if (opened.ok() && with_landmarks) opened = open(&landmarks_.emplace(), "landmarks.csv");
+  if (opened.ok()) opened = open(&events_, "events.jsonl");
+  if (!opened.ok()) return opened;
   trajectory_.Raw(TrajectoryHeader());
   places_.SetSeparator(' ');
   satellites_.Raw(
       "time_gps_ns,satellite,signal,used,reason,residual_m,sigma_m,weight,elevation_deg,"
       "azimuth_deg,cn0_dbhz,range_rate_residual_mps\n");
+  if (landmarks_) {
+    landmarks_->Raw(
+        "time_gps_ns,landmark_id,used,reason,x_px,y_px,residual_x_px,residual_y_px,weight,range_m,"
+        "range_sigma_m,latitude_deg,longitude_deg,height_m\n");
+  }
   flushed_ = Clock::now();
   return {};
 }
@@ -125,7 +143,7 @@ void RunWriter::WriteTrajectory(const lodemark_estimate& from) {
   }
   to.clock_bias_m = known(kPosition, from.clock_bias_m);
   to.clock_drift_mps = known(kVelocity, from.clock_drift_mps);
-  to.sources.assign((from.sources & LODEMARK_SOURCE_GNSS) != 0 ? "gnss" : "");
+  to.sources.assign(SourcesWord(from.sources));
   to.satellites_used = from.satellites_used;
   to.hdop = known(kPosition, from.hdop);
   to.vdop = known(kPosition, from.vdop);
@@ -150,14 +168,59 @@ void RunWriter::WritePlace(const lodemark_estimate& from) {
   *point = '.';
   places_.Field(std::string_view(time_s, static_cast<std::size_t>(end - time_s)));
   for (int i = 0; i < 3; ++i) places_.Field(enu_m[i], 4);
-  places_.Raw(" 0 0 0 1");
+  if (Has(from, LODEMARK_ESTIMATE_HAS_ORIENTATION)) {
+    // How the camera is turned in the frame's axes: x y z w of frame from camera.
+    const double* q = from.camera_from_enu;
+    for (const double value : {-q[1], -q[2], -q[3], q[0]}) places_.Field(value, 7);
+  } else {
+    places_.Raw(" 0 0 0 1");
+  }
   places_.EndRow();
 }
 
+void RunWriter::WriteLandmarks(const lodemark_estimate& estimate,
+                               std::span<const lodemark_landmark> landmarks) {
+  if (!landmarks_) return;
+  RowWriter& rows = *landmarks_;
+  for (const lodemark_landmark& landmark : landmarks) {
+    const bool has_residual = (landmark.present & LODEMARK_LANDMARK_HAS_RESIDUAL) != 0;
+    const auto field = [&](double value, int decimals) {
+      if (has_residual) {
+        rows.Field(value, decimals);
+      } else {
+        rows.EmptyField();
+      }
+    };
+    const Geodetic place =
+        GeodeticFromEcef({landmark.landmark_in_ecef_m[0], landmark.landmark_in_ecef_m[1],
+                          landmark.landmark_in_ecef_m[2]});
+    rows.Field(estimate.time_gps_ns);
+    rows.Field(static_cast<std::int64_t>(landmark.landmark_id));
+    rows.Field(landmark.verdict == LODEMARK_VERDICT_USED ||
+                       landmark.verdict == LODEMARK_VERDICT_DOWN_WEIGHTED
+                   ? "1"
+                   : "0");
+    rows.Field(VerdictWord(landmark.verdict));
+    rows.Field(landmark.pixel_px[0], 2);
+    rows.Field(landmark.pixel_px[1], 2);
+    field(landmark.residual_px[0], 2);
+    field(landmark.residual_px[1], 2);
+    field(landmark.weight, 3);
+    field(landmark.range_m, 3);
+    field(landmark.range_sigma_m, 3);
+    rows.Field(place.latitude_rad * kDegreesPerRadian, 8);
+    rows.Field(place.longitude_rad * kDegreesPerRadian, 8);
+    rows.Field(place.height_m, 3);
+    rows.EndRow();
+  }
+}
+
 void RunWriter::WriteEpoch(const lodemark_estimate& estimate,
-                           std::span<const lodemark_satellite> signals) {
+                           std::span<const lodemark_satellite> signals,
+                           std::span<const lodemark_landmark> landmarks) {
   WriteTrajectory(estimate);
   WritePlace(estimate);
+  WriteLandmarks(estimate, landmarks);
   for (const lodemark_satellite& signal : signals) {
     const auto field = [&](std::uint32_t bit, double value, int decimals) {
       if ((signal.present & bit) != 0) {
@@ -199,6 +262,15 @@ void RunWriter::WriteEvents(std::span<const lodemark_event> events) {
   }
 }
 
+template <typename Visit>
+void RunWriter::ForEachFile(const Visit& visit) {
+  visit(trajectory_);
+  visit(places_);
+  visit(satellites_);
+  if (landmarks_) visit(*landmarks_);
+  visit(events_);
+}
+
 void RunWriter::FlushNowAndThen() {
   const Clock::time_point now = Clock::now();
   if (now - flushed_ > kLongestUnwritten) {
@@ -206,30 +278,26 @@ void RunWriter::FlushNowAndThen() {
     flushed_ = now;
     return;
   }
-  trajectory_.FlushIfLarge();
-  places_.FlushIfLarge();
-  satellites_.FlushIfLarge();
-  events_.FlushIfLarge();
+  ForEachFile([](RowWriter& file) { file.FlushIfLarge(); });
 }
 
 void RunWriter::FlushAll() {
-  trajectory_.Flush();
-  places_.Flush();
-  satellites_.Flush();
-  events_.Flush();
+  ForEachFile([](RowWriter& file) { file.Flush(); });
 }
 
 Status RunWriter::Finish() {
   FlushAll();
-  for (const RowWriter* writer : {&trajectory_, &places_, &satellites_, &events_}) {
-    if (!writer->status().ok()) return writer->status();
-  }
-  return {};
+  Status first;
+  ForEachFile([&first](const RowWriter& file) {
+    if (first.ok()) first = file.status();
+  });
+  return first;
 }
 
-bool RunWriter::ok() const {
-  return trajectory_.status().ok() && places_.status().ok() && satellites_.status().ok() &&
-         events_.status().ok();
+bool RunWriter::ok() {
+  bool all = true;
+  ForEachFile([&all](const RowWriter& file) { all = all && file.status().ok(); });
+  return all;
 }
 
 }  // namespace lodemark

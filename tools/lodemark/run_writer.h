@@ -26,27 +26,33 @@ Status CheckRunFolder(const std::string& folder);
 class RunWriter {
  public:
   // Makes the folder where needed, and takes out what an earlier run left.
-  Status Open(const std::string& folder);
+  Status Open(const std::string& folder, bool with_landmarks);
 
-  // An estimate with a GPS time, and the signals it was made from.
-  void WriteEpoch(const lodemark_estimate& estimate, std::span<const lodemark_satellite> signals);
+  // An estimate with a GPS time, and the signals and landmarks it was made from.
+  void WriteEpoch(const lodemark_estimate& estimate, std::span<const lodemark_satellite> signals,
+                  std::span<const lodemark_landmark> landmarks);
   void WriteEvents(std::span<const lodemark_event> events);
 
   // The first failure to write.
   Status Finish();
-  bool ok() const;
+  bool ok();
 
  private:
   using Clock = std::chrono::steady_clock;
 
   void WriteTrajectory(const lodemark_estimate& estimate);
   void WritePlace(const lodemark_estimate& estimate);
+  void WriteLandmarks(const lodemark_estimate& estimate,
+                      std::span<const lodemark_landmark> landmarks);
   void FlushNowAndThen();
   void FlushAll();
+  template <typename Visit>
+  void ForEachFile(const Visit& visit);
 
   RowWriter trajectory_;
   RowWriter places_;  // trajectory.tum
   RowWriter satellites_;
+  std::optional<RowWriter> landmarks_;
   RowWriter events_;
   TrajectoryPoint point_;
   std::optional<EnuFrame> frame_;  // at the first estimate

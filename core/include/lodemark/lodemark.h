@@ -815,7 +815,7 @@ LODEMARK_API lodemark_status lodemark_session_estimate(const lodemark_session* s
 #define LODEMARK_VERDICT_OUTLIER 10
 #define LODEMARK_VERDICT_SYSTEM_OFF 11
 #define LODEMARK_VERDICT_UNKNOWN_SIGNAL 12
-#define LODEMARK_VERDICT_UNOBSERVABLE 13 /* the only one of its clock group */
+#define LODEMARK_VERDICT_UNOBSERVABLE 13   /* the only one of its clock group */
 #define LODEMARK_VERDICT_PHOTO_NOT_USED 14 /* a landmark whose photograph was not used */
 
 /* Bits of lodemark_satellite.present. */
@@ -842,7 +842,7 @@ typedef struct lodemark_satellite {
   double range_rate_residual_mps;
 } lodemark_satellite;
 
-/* The signals of the epoch processed last. */
+/* The signals of the epoch processed last; none if it was a photograph. */
 LODEMARK_API lodemark_status lodemark_session_satellites(const lodemark_session* session,
                                                          lodemark_satellite* out, int32_t capacity,
                                                          int32_t* count);
@@ -875,7 +875,7 @@ LODEMARK_API lodemark_status lodemark_session_landmarks(const lodemark_session* 
 #define LODEMARK_EVENT_DUPLICATE_EPOCH 3     /* the same time twice: the second dropped */
 #define LODEMARK_EVENT_FIRST_FIX 4
 #define LODEMARK_EVENT_FIX_LOST 5
-#define LODEMARK_EVENT_EPHEMERIS_MISSING 6 /* first time that a satellite had no orbit */
+#define LODEMARK_EVENT_EPHEMERIS_MISSING 6  /* first time that a satellite had no orbit */
 #define LODEMARK_EVENT_PHOTO_CONTRADICTED 7 /* by satellites: it is of another place */
 #define LODEMARK_EVENT_PHOTO_FAILED 8       /* it could not be looked up; the text says why */
 
