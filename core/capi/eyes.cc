@@ -375,7 +375,8 @@ std::vector<lodemark_sight_residual> SightResiduals(const ResectedPose& pose,
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     residuals[i] = {};
     residuals[i].used = pose.is_inlier[i] != 0 ? 1 : 0;
-    if (i >= pose.residuals_px.size()) continue;
+    // Not a number where the landmark would not appear in the photograph.
+    if (i >= pose.residuals_px.size() || !pose.residuals_px[i].allFinite()) continue;
     residuals[i].residual_px[0] = pose.residuals_px[i].x();
     residuals[i].residual_px[1] = pose.residuals_px[i].y();
   }

@@ -358,7 +358,7 @@ typedef struct lodemark_pose {
 typedef struct lodemark_sight_residual {
   uint32_t struct_size;
   int32_t used;          /* 1 or 0 */
-  double residual_px[2]; /* seen minus predicted */
+  double residual_px[2]; /* seen minus predicted; zero if the landmark could not be seen */
   double range_m;        /* the visual range, of sights used */
   double range_sigma_m;
 } lodemark_sight_residual;
