@@ -47,10 +47,15 @@ struct DatabaseImage {
   bool pose_known = false;
 };
 
-// A convex part of a building: corners in the map's frame. Only stored, for the sight lines.
+// A convex part of a building: walls straight up over its footprint, from the base to a flat roof.
 struct BuildingPart {
   std::uint32_t id = 0;
-  std::vector<Eigen::Vector3d> corners_in_enu_m;
+  std::string building;  // what it is a part of, by the name in its source; may be empty
+  std::vector<Eigen::Vector2d> footprint_in_enu_m;  // convex, counterclockwise
+  double base_m = 0.0;                              // up
+  double top_m = 0.0;
+  double top_sigma_m = 0.0;
+  bool raised = false;  // open beneath, as a passage is; else it stands on the ground
 };
 
 struct MapFile;

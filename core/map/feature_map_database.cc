@@ -114,17 +114,21 @@ Result<std::vector<DatabaseImage>> FeatureMap::Database::Images() {
 }
 
 Result<std::vector<BuildingPart>> FeatureMap::Database::BuildingParts() {
-  SqliteStatement rows(file.connection.get(), kSelectBuildingParts);
   std::vector<BuildingPart> parts;
+  if (file.version == 1) {
+    if (file.map.info.building_parts == 0) return parts;
+    return file.connection->MakeError(
+        ErrorCode::kUnsupported,
+        "holds buildings in the form of version 1, which had no use; make the map again");
+  }
+  SqliteStatement rows(file.connection.get(), kSelectBuildingParts);
   while (rows.Step()) {
-    const std::int64_t id = rows.Integer(0).value_or(-1);
-    if (id < 0 || id > kLargestId) {
-      return Bad("building_parts: id " + std::to_string(id) + ": id is out of range");
-    }
-    if (!parts.empty() && id <= parts.back().id) {
+    Result<BuildingPart> part = ReadBuildingPart(*file.connection, rows);
+    if (!part) return part.error();
+    if (!parts.empty() && part->id <= parts.back().id) {
       return Bad("building_parts: is damaged: ids do not ascend");
     }
-    parts.push_back({static_cast<std::uint32_t>(id), {}});
+    parts.push_back(*std::move(part));
   }
   if (Status status = rows.status(); !status) return status.error();
 
@@ -135,17 +139,17 @@ Result<std::vector<BuildingPart>> FeatureMap::Database::BuildingParts() {
     if (!corner) return corner.error();
     while (part != parts.end() && part->id < corner->part_id) ++part;
     if (part == parts.end() || part->id != corner->part_id ||
-        static_cast<std::int64_t>(part->corners_in_enu_m.size()) != corner->corner) {
+        static_cast<std::int64_t>(part->footprint_in_enu_m.size()) != corner->corner) {
       return Bad("building_part_corners: part_id " + std::to_string(corner->part_id) + ": corner " +
                  std::to_string(corner->corner) +
                  " is of no part or does not follow the one before");
     }
-    part->corners_in_enu_m.push_back(corner->place_in_enu_m);
+    part->footprint_in_enu_m.push_back(corner->place_in_enu_m);
   }
   if (Status status = corners.status(); !status) return status.error();
   for (const BuildingPart& each : parts) {
-    if (each.corners_in_enu_m.empty()) {
-      return Bad("building_parts: id " + std::to_string(each.id) + ": has no corners");
+    if (auto wrong = WrongWith(each)) {
+      return InRow(*file.connection, ErrorCode::kBadData, "building_parts", each.id, *wrong);
     }
   }
   return parts;

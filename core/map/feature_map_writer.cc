@@ -82,9 +82,10 @@ FeatureMapWriter::Database::Database(MapFile&& opened, bool is_new)
                    "INSERT INTO landmark_places VALUES (?1, ?2, ?2, ?3, ?3, ?4, ?4)"),
       insert_image(file.connection.get(),
                    "INSERT INTO images VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)"),
-      insert_part(file.connection.get(), "INSERT INTO building_parts VALUES (?1)"),
+      insert_part(file.connection.get(),
+                  "INSERT INTO building_parts VALUES (?1, ?2, ?3, ?4, ?5, ?6)"),
       insert_corner(file.connection.get(),
-                    "INSERT INTO building_part_corners VALUES (?1, ?2, ?3, ?4, ?5)"),
+                    "INSERT INTO building_part_corners VALUES (?1, ?2, ?3, ?4)"),
       delete_landmark(file.connection.get(), "DELETE FROM landmarks WHERE id = ?1"),
       delete_place(file.connection.get(), "DELETE FROM landmark_places WHERE id = ?1"),
       delete_image(file.connection.get(), "DELETE FROM images WHERE id = ?1"),
@@ -246,27 +247,29 @@ Status FeatureMapWriter::AddImage(const DatabaseImage& image) {
 Status FeatureMapWriter::AddBuildingPart(const BuildingPart& part) {
   Database& database = *database_;
   if (Status status = database.Ready(); !status) return status;
+  if (database.file.version == 1) {
+    return database.file.connection->MakeError(
+        ErrorCode::kUnsupported,
+        "is a feature map of version 1, which takes no buildings; make the map again");
+  }
   const std::int64_t id = part.id;
-  if (id > kLargestId) return database.Wrong("building_parts", id, "id is out of range");
-  if (part.corners_in_enu_m.empty() ||
-      static_cast<std::int64_t>(part.corners_in_enu_m.size()) > kMostCorners) {
-    return database.Wrong("building_parts", id, "has no corners or too many");
-  }
-  for (const Eigen::Vector3d& corner : part.corners_in_enu_m) {
-    if (auto wrong = WrongWith(corner)) return database.Wrong("building_parts", id, *wrong);
-  }
+  if (auto wrong = WrongWith(part)) return database.Wrong("building_parts", id, *wrong);
   const Result<bool> there = database.Has(database.select_part, id);
   if (!there) return there.error();
   if (*there) return database.Wrong("building_parts", id, "is there already");
 
   database.insert_part.Bind(1, id);
+  database.insert_part.Bind(2, std::string_view(part.building));
+  database.insert_part.Bind(3, part.base_m);
+  database.insert_part.Bind(4, part.top_m);
+  database.insert_part.Bind(5, part.top_sigma_m);
+  database.insert_part.Bind(6, std::int64_t{part.raised ? 1 : 0});
   if (Status status = database.Keep(database.insert_part.Run()); !status) return status;
-  for (std::size_t i = 0; i < part.corners_in_enu_m.size(); ++i) {
+  for (std::size_t i = 0; i < part.footprint_in_enu_m.size(); ++i) {
     database.insert_corner.Bind(1, id);
     database.insert_corner.Bind(2, static_cast<std::int64_t>(i));
-    for (int axis = 0; axis < 3; ++axis) {
-      database.insert_corner.Bind(axis + 3, part.corners_in_enu_m[i][axis]);
-    }
+    database.insert_corner.Bind(3, part.footprint_in_enu_m[i].x());
+    database.insert_corner.Bind(4, part.footprint_in_enu_m[i].y());
     if (Status status = database.Keep(database.insert_corner.Run()); !status) return status;
   }
   ++database.file.map.info.building_parts;

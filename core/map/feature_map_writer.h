@@ -26,7 +26,8 @@ class FeatureMapWriter {
 
   // Ids are the caller's and unique; of landmarks at most 2^26 - 1, because who looks up landmarks
   // keeps tables by id, of others at most 2^31 - 1. Error if the covariance is not positive
-  // semidefinite or a value is absurd: a map holds what lies within 100 km of its origin.
+  // semidefinite, a footprint not convex and counterclockwise, or a value absurd: a map holds what
+  // lies within 100 km of its origin. A map of version 1 takes no buildings.
   Status AddLandmark(const Landmark& landmark);
   Status AddImage(const DatabaseImage& image);
   Status AddBuildingPart(const BuildingPart& part);

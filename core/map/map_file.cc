@@ -64,9 +64,10 @@ Status LoadLandmarkIdLimit(MapFile& file) {
 Result<MapFile> LoadMapFile(std::unique_ptr<SqliteConnection> connection, MapAccess access) {
   MapFile file;
   file.connection = std::move(connection);
-  const Result<std::int64_t> size_bytes = BeginOnUnknownFile(*file.connection, access);
-  if (!size_bytes) return size_bytes.error();
-  file.size_bytes = *size_bytes;
+  const Result<RecognisedMap> recognised = BeginOnUnknownFile(*file.connection, access);
+  if (!recognised) return recognised.error();
+  file.size_bytes = recognised->size_bytes;
+  file.version = recognised->version;
   for (Status (*load)(MapFile&) : {LoadMapRow, LoadQuantizer, LoadLandmarkIdLimit}) {
     if (Status status = load(file); !status) return status.error();
   }

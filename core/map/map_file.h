@@ -16,6 +16,7 @@ namespace lodemark {
 struct MapFile {
   std::unique_ptr<SqliteConnection> connection;
   std::int64_t size_bytes = 0;
+  std::int64_t version = kMapVersion;
   MapRow map;
   std::optional<DescriptorQuantizer> quantizer;  // there once this is loaded
   std::uint32_t landmark_id_limit = 0;

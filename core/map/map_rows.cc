@@ -5,6 +5,8 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "core/geo/polygon.h"
+
 namespace lodemark {
 namespace {
 
@@ -151,6 +153,26 @@ std::optional<std::string> WrongWith(const Eigen::Vector3d& position_in_enu_m) {
   return std::nullopt;
 }
 
+std::optional<std::string> WrongWith(const BuildingPart& part) {
+  if (part.id > kLargestId) return "id is out of range";
+  if (auto wrong = WrongText("building", part.building, kLongestName_bytes)) return wrong;
+  const std::vector<Eigen::Vector2d>& footprint = part.footprint_in_enu_m;
+  if (footprint.size() < 3) return "has fewer than three corners";
+  if (static_cast<std::int64_t>(footprint.size()) > kMostCorners) return "has too many corners";
+  for (const Eigen::Vector2d& corner : footprint) {
+    for (const double up_m : {part.base_m, part.top_m}) {
+      if (auto wrong = WrongWith(Eigen::Vector3d(corner.x(), corner.y(), up_m))) return wrong;
+    }
+  }
+  if (!IsConvexCounterclockwise(footprint)) return "footprint is not convex and counterclockwise";
+  if (!(part.top_m > part.base_m)) return "top is not above its base";
+  if (!(part.top_m - part.base_m <= kTallestBuilding_m)) return "is taller than 1000 m";
+  if (!(part.top_sigma_m >= 0.0 && part.top_sigma_m <= kTallestBuilding_m)) {
+    return "top_sigma_m is out of range";
+  }
+  return std::nullopt;
+}
+
 std::optional<std::string> WrongWith(const Landmark& landmark) {
   if (landmark.id > kLargestLandmarkId) return "id is above " + std::to_string(kLargestLandmarkId);
   if (auto wrong = WrongWith(landmark.position_in_enu_m)) return wrong;
@@ -290,18 +312,33 @@ Result<DatabaseImage> ReadImage(const SqliteConnection& connection, const Sqlite
   return image;
 }
 
+Result<BuildingPart> ReadBuildingPart(const SqliteConnection& connection,
+                                      const SqliteStatement& row) {
+  Fields fields(row);
+  BuildingPart part;
+  const std::int64_t id = fields.Integer("id", 0, kLargestId);
+  part.id = static_cast<std::uint32_t>(id);
+  part.building = fields.Text("building");
+  part.base_m = fields.Real("base_m");
+  part.top_m = fields.Real("top_m");
+  part.top_sigma_m = fields.Real("top_sigma_m");
+  part.raised = fields.Integer("raised", 0, 1) == 1;
+  if (!fields.wrong().empty()) {
+    return InRow(connection, ErrorCode::kBadData, "building_parts", id, fields.wrong());
+  }
+  return part;
+}
+
 Result<CornerRow> ReadCorner(const SqliteConnection& connection, const SqliteStatement& row) {
   Fields fields(row);
   CornerRow corner;
   const std::int64_t id = fields.Integer("part_id", 0, kLargestId);
   corner.part_id = static_cast<std::uint32_t>(id);
   corner.corner = fields.Integer("corner", 0, kMostCorners - 1);
-  corner.place_in_enu_m = fields.Place();
+  corner.place_in_enu_m.x() = fields.Real("east_m");
+  corner.place_in_enu_m.y() = fields.Real("north_m");
   if (!fields.wrong().empty()) {
     return InRow(connection, ErrorCode::kBadData, "building_part_corners", id, fields.wrong());
-  }
-  if (auto wrong = WrongWith(corner.place_in_enu_m)) {
-    return InRow(connection, ErrorCode::kBadData, "building_part_corners", id, *wrong);
   }
   return corner;
 }

@@ -16,13 +16,15 @@ constexpr double kFarthestFromOrigin_m = 100'000.0;
 constexpr double kLargestVariance_m2 = 1e6;  // (1 km)^2
 constexpr std::int64_t kLargestLandmarkId = (std::int64_t{1} << 26) - 1;
 constexpr std::int64_t kLargestId = 0x7fffffff;
-constexpr std::int64_t kMostCorners = 100'000;  // of one building part
+constexpr std::int64_t kMostCorners = 1'000;  // of one building part
+constexpr double kTallestBuilding_m = 1'000.0;
 
 // Why the value cannot be in a map: "covariance is not positive". Empty if it can.
 std::optional<std::string> WrongWith(const MapInfo& info);
 std::optional<std::string> WrongWith(const Landmark& landmark);
 std::optional<std::string> WrongWith(const DatabaseImage& image);
 std::optional<std::string> WrongWith(const Eigen::Vector3d& position_in_enu_m);
+std::optional<std::string> WrongWith(const BuildingPart& part);
 std::optional<std::string> WrongWith(const DescriptorOrigin& origin);
 
 // "map.db: landmarks: id 812: covariance is not positive".
@@ -62,9 +64,10 @@ constexpr const char* kSelectAllLandmarks =
 constexpr const char* kSelectImages =
     "SELECT id, name, pose_known, east_m, north_m, up_m, camera_from_enu_w, camera_from_enu_x, "
     "camera_from_enu_y, camera_from_enu_z FROM images ORDER BY id";
-constexpr const char* kSelectBuildingParts = "SELECT id FROM building_parts ORDER BY id";
+constexpr const char* kSelectBuildingParts =
+    "SELECT id, building, base_m, top_m, top_sigma_m, raised FROM building_parts ORDER BY id";
 constexpr const char* kSelectCorners =
-    "SELECT part_id, corner, east_m, north_m, up_m FROM building_part_corners "
+    "SELECT part_id, corner, east_m, north_m FROM building_part_corners "
     "ORDER BY part_id, corner";
 
 // The row a statement of these columns stands on.
@@ -72,10 +75,14 @@ Result<MapRow> ReadMapRow(const SqliteConnection& connection, const SqliteStatem
 Result<LandmarkRow> ReadLandmark(const SqliteConnection& connection, const SqliteStatement& row);
 Result<DatabaseImage> ReadImage(const SqliteConnection& connection, const SqliteStatement& row);
 
+// Without its footprint.
+Result<BuildingPart> ReadBuildingPart(const SqliteConnection& connection,
+                                      const SqliteStatement& row);
+
 struct CornerRow {
   std::uint32_t part_id = 0;
   std::int64_t corner = 0;
-  Eigen::Vector3d place_in_enu_m = Eigen::Vector3d::Zero();
+  Eigen::Vector2d place_in_enu_m = Eigen::Vector2d::Zero();
 };
 Result<CornerRow> ReadCorner(const SqliteConnection& connection, const SqliteStatement& row);
 

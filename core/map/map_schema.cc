@@ -12,9 +12,8 @@ namespace lodemark {
 namespace {
 
 constexpr std::uint32_t kApplicationId = 0x4c6f6465;  // "Lode"
-constexpr std::uint32_t kVersion = 1;
-
-constexpr const char* kCreateTables = R"(
+// The tables of the first version's buildings, which nothing was ever written to.
+constexpr const char* kBuildingTablesOfVersion1 = R"(
 CREATE TABLE building_part_corners (
   part_id INTEGER NOT NULL,
   corner INTEGER NOT NULL,
@@ -24,6 +23,28 @@ CREATE TABLE building_part_corners (
   PRIMARY KEY (part_id, corner)
 ) STRICT, WITHOUT ROWID;
 CREATE TABLE building_parts (id INTEGER PRIMARY KEY) STRICT;
+)";
+
+constexpr const char* kBuildingTables = R"(
+CREATE TABLE building_part_corners (
+  part_id INTEGER NOT NULL,
+  corner INTEGER NOT NULL,
+  east_m REAL NOT NULL,
+  north_m REAL NOT NULL,
+  PRIMARY KEY (part_id, corner)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE building_parts (
+  id INTEGER PRIMARY KEY,
+  building TEXT NOT NULL,
+  base_m REAL NOT NULL,
+  top_m REAL NOT NULL,
+  top_sigma_m REAL NOT NULL,
+  raised INTEGER NOT NULL
+) STRICT;
+)";
+
+// Those of both versions. By name they come after the buildings.
+constexpr const char* kCommonTables = R"(
 CREATE TABLE descriptor_lists (
   list_part INTEGER PRIMARY KEY,
   index_id INTEGER NOT NULL,
@@ -104,21 +125,23 @@ std::string Squeezed(std::string_view sql) {
 }
 
 // The statements that make a map's tables, squeezed, in the order of their names.
-std::vector<std::string> ExpectedStatements() {
+std::vector<std::string> ExpectedStatements(std::int64_t version) {
   std::vector<std::string> statements;
-  std::string_view rest = kCreateTables;
-  for (std::size_t end = rest.find(';'); end != std::string_view::npos; end = rest.find(';')) {
-    const std::string statement = Squeezed(rest.substr(0, end));
-    rest.remove_prefix(end + 1);
-    statements.push_back(statement);
-    if (statement.find("VIRTUAL") == std::string::npos) continue;
-    for (const std::string_view table : kPlaceTables) statements.emplace_back(table);
+  for (std::string_view rest :
+       {version == 1 ? kBuildingTablesOfVersion1 : kBuildingTables, kCommonTables}) {
+    for (std::size_t end = rest.find(';'); end != std::string_view::npos; end = rest.find(';')) {
+      const std::string statement = Squeezed(rest.substr(0, end));
+      rest.remove_prefix(end + 1);
+      statements.push_back(statement);
+      if (statement.find("VIRTUAL") == std::string::npos) continue;
+      for (const std::string_view table : kPlaceTables) statements.emplace_back(table);
+    }
   }
   return statements;
 }
 
-Status CheckTables(SqliteConnection& connection) {
-  const std::vector<std::string> expected = ExpectedStatements();
+Status CheckTables(SqliteConnection& connection, std::int64_t version) {
+  const std::vector<std::string> expected = ExpectedStatements(version);
   SqliteStatement entries(&connection, "SELECT type, name, sql FROM sqlite_schema ORDER BY name");
   std::size_t count = 0;
   while (entries.Step()) {
@@ -133,7 +156,9 @@ Status CheckTables(SqliteConnection& connection) {
     if (count == expected.size() || statement != expected[count]) {
       return connection.MakeError(ErrorCode::kBadData,
                                   "is not to be trusted: its tables are not those of a feature "
-                                  "map of version 1; get the map again from where it was made");
+                                  "map of version " +
+                                      std::to_string(version) +
+                                      "; get the map again from where it was made");
     }
     ++count;
   }
@@ -184,9 +209,10 @@ Status CreateMapTables(SqliteConnection& connection) {
   if (Status status = connection.Execute(settings.c_str()); !status) return status;
   if (Status status = Begin(connection, MapAccess::kWrite); !status) return status;
   const std::string versions = "PRAGMA application_id = " + std::to_string(kApplicationId) +
-                               "; PRAGMA user_version = " + std::to_string(kVersion);
+                               "; PRAGMA user_version = " + std::to_string(kMapVersion);
   if (Status status = connection.Execute(versions.c_str()); !status) return status;
-  return connection.Execute(kCreateTables);
+  if (Status status = connection.Execute(kBuildingTables); !status) return status;
+  return connection.Execute(kCommonTables);
 }
 
 Status Begin(SqliteConnection& connection, MapAccess access) {
@@ -201,7 +227,7 @@ Status Begin(SqliteConnection& connection, MapAccess access) {
   return connection.Execute("BEGIN; PRAGMA application_id");
 }
 
-Result<std::int64_t> BeginOnUnknownFile(SqliteConnection& connection, MapAccess access) {
+Result<RecognisedMap> BeginOnUnknownFile(SqliteConnection& connection, MapAccess access) {
   const auto bad = [&](std::string_view sentence) {
     return connection.MakeError(ErrorCode::kBadData, sentence);
   };
@@ -223,13 +249,13 @@ Result<std::int64_t> BeginOnUnknownFile(SqliteConnection& connection, MapAccess 
   if (header.application_id() != kApplicationId) {
     return bad("is not a feature map: an SQLite file of another kind");
   }
-  if (header.user_version() > kVersion) {
+  if (header.user_version() > kMapVersion) {
     return Error{ErrorCode::kUnsupported,
                  connection.name() + ": is a feature map of version " +
                      std::to_string(header.user_version()) + ", newer than this program, which " +
-                     "knows version " + std::to_string(kVersion) + "; update the program"};
+                     "knows version " + std::to_string(kMapVersion) + "; update the program"};
   }
-  if (header.user_version() != kVersion) {
+  if (header.user_version() < 1) {
     return bad("is damaged: there is no feature map of version " +
                std::to_string(header.user_version()));
   }
@@ -243,8 +269,9 @@ Result<std::int64_t> BeginOnUnknownFile(SqliteConnection& connection, MapAccess 
     return bad("is not to be trusted: its text is of another encoding than a feature map's");
   }
   connection.AllowWork(raw.size_bytes);
-  if (Status status = CheckTables(connection); !status) return status.error();
-  return raw.size_bytes;
+  const std::int64_t version = header.user_version();
+  if (Status status = CheckTables(connection, version); !status) return status.error();
+  return RecognisedMap{raw.size_bytes, version};
 }
 
 }  // namespace lodemark

@@ -8,6 +8,9 @@
 
 namespace lodemark {
 
+// The newest version. Version 1 is read too: its buildings had no form of use.
+constexpr std::int64_t kMapVersion = 2;
+
 // A part of a list fills one page, so that a read touches no other.
 constexpr int kMapPage_bytes = 65'536;
 constexpr std::int64_t kLargestListPart_bytes = 65'400;
@@ -31,7 +34,10 @@ Status Begin(SqliteConnection& connection, MapAccess access);
 
 // Begins a file's first transaction, in which it turns out whether the file is a feature map of
 // this version, whole, and has exactly the tables of one. Takes no time that grows with the map.
-// Gives the length of the file.
-Result<std::int64_t> BeginOnUnknownFile(SqliteConnection& connection, MapAccess access);
+struct RecognisedMap {
+  std::int64_t size_bytes = 0;
+  std::int64_t version = 0;
+};
+Result<RecognisedMap> BeginOnUnknownFile(SqliteConnection& connection, MapAccess access);
 
 }  // namespace lodemark

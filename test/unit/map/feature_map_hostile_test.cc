@@ -120,15 +120,39 @@ TEST_F(HostileMap, SaysWhatAFileIsInstead) {
 }
 
 TEST_F(HostileMap, RefusesOtherVersions) {
-  Change(path_, "PRAGMA user_version = 2");
+  Change(path_, "PRAGMA user_version = 3");
   const auto map = FeatureMap::Open(path_);
   ASSERT_FALSE(map.ok());
   EXPECT_EQ(map.error().code, ErrorCode::kUnsupported);
-  EXPECT_THAT(map.error().message, HasSubstr("map.db: is a feature map of version 2, newer"));
+  EXPECT_THAT(map.error().message, HasSubstr("map.db: is a feature map of version 3, newer"));
   Change(path_, "PRAGMA user_version = 0");
   EXPECT_THAT(WhyNot(), HasSubstr("is damaged"));
-  Change(path_, "PRAGMA user_version = 1; PRAGMA application_id = 7");
+  Change(path_, "PRAGMA user_version = 2; PRAGMA application_id = 7");
   EXPECT_THAT(WhyNot(), HasSubstr("an SQLite file of another kind"));
+}
+
+// As the version before wrote it, its building tables empty or not.
+TEST_F(HostileMap, ReadsVersion1ButNotItsBuildings) {
+  Change(path_,
+         "DROP TABLE building_parts; DROP TABLE building_part_corners;"
+         "CREATE TABLE building_part_corners (\n  part_id INTEGER NOT NULL,\n"
+         "  corner INTEGER NOT NULL,\n  east_m REAL NOT NULL,\n  north_m REAL NOT NULL,\n"
+         "  up_m REAL NOT NULL,\n  PRIMARY KEY (part_id, corner)\n) STRICT, WITHOUT ROWID;"
+         "CREATE TABLE building_parts (id INTEGER PRIMARY KEY) STRICT;"
+         "PRAGMA user_version = 1");
+  EXPECT_THAT(FirstFinding(), HasSubstr("map.db: holds buildings in the form of version 1"));
+  Change(path_, "UPDATE map SET building_parts = 0");
+  EXPECT_EQ(FirstFinding(), "sound");
+  EXPECT_THAT(*(*FeatureMap::Open(path_))->BuildingParts(), IsEmpty());
+  auto writer = FeatureMapWriter::Open(path_);
+  ASSERT_TRUE(writer.ok()) << writer.error().message;
+  EXPECT_THAT((*writer)->AddBuildingPart(scene_.parts[0]).error().message,
+              HasSubstr("takes no buildings"));
+  EXPECT_TRUE((*writer)->RemoveImage(10).ok());
+  EXPECT_TRUE((*writer)->Commit().ok());
+  EXPECT_EQ(FirstFinding(), "sound");
+  Change(path_, "PRAGMA user_version = 2");
+  EXPECT_THAT(WhyNot(), HasSubstr("not those of a feature map of version 2"));
 }
 
 TEST_F(HostileMap, RefusesASchemaOfOtherMaking) {
@@ -187,10 +211,20 @@ TEST_F(HostileMap, RefusesValuesNoMapCanHave) {
       {"UPDATE images SET name = char(27) WHERE id = 11", "id 11: name is not plain"},
       {"UPDATE images SET name = CAST(x'ff41' AS TEXT) WHERE id = 11", "name is not plain"},
       {"DELETE FROM images WHERE id = 11", "images: says 6, there are 5"},
-      {"DELETE FROM building_part_corners WHERE part_id = 4", "id 4: has no corners"},
+      {"DELETE FROM building_part_corners WHERE part_id = 4", "id 4: has fewer than three corners"},
+      {"DELETE FROM building_part_corners WHERE corner > 1", "id 4: has fewer than three corners"},
       {"DELETE FROM building_part_corners WHERE corner = 1", "part_id 4: corner 2"},
       {"DELETE FROM building_parts WHERE id = 4", "part_id 4: corner 0"},
-      {"UPDATE building_part_corners SET up_m = 9e999", "up_m is not finite"},
+      {"UPDATE building_part_corners SET north_m = 9e999", "north_m is not finite"},
+      {"UPDATE building_part_corners SET east_m = 2e5", "id 4: position is more than 100 km"},
+      {"UPDATE building_part_corners SET east_m = -east_m", "id 4: footprint is not convex"},
+      {"DELETE FROM building_part_corners WHERE corner = 0", "part_id 4: corner 1"},
+      {"UPDATE building_parts SET base_m = top_m WHERE id = 9", "id 9: top is not above its base"},
+      {"UPDATE building_parts SET base_m = -9e999 WHERE id = 9", "id 9: base_m is not finite"},
+      {"UPDATE building_parts SET top_m = 1005 WHERE id = 9", "id 9: is taller than 1000 m"},
+      {"UPDATE building_parts SET top_sigma_m = -1 WHERE id = 9", "id 9: top_sigma_m is out of"},
+      {"UPDATE building_parts SET raised = 2 WHERE id = 9", "id 9: raised is out of range"},
+      {"UPDATE building_parts SET building = char(27) WHERE id = 9", "id 9: building is not plain"},
       {"UPDATE map SET descriptor_kind = 3", "map: id 1: descriptor_kind is out of range"},
       {"UPDATE map SET descriptor_kind = 2", "descriptors of another kind"},
       {"UPDATE map SET origin_latitude_rad = 1.6", "latitude of the origin is out of range"},

@@ -74,8 +74,14 @@ TEST_P(MapOfKind, GivesBackWhatWasPutIn) {
   ASSERT_TRUE(parts.ok()) << parts.error().message;
   ASSERT_EQ(parts->size(), 2U);
   EXPECT_EQ((*parts)[1].id, 9U);
-  EXPECT_EQ((*parts)[0].corners_in_enu_m, scene.parts[0].corners_in_enu_m);
-  EXPECT_EQ((*parts)[1].corners_in_enu_m, scene.parts[1].corners_in_enu_m);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ((*parts)[i].building, scene.parts[i].building);
+    EXPECT_EQ((*parts)[i].footprint_in_enu_m, scene.parts[i].footprint_in_enu_m);
+    EXPECT_EQ((*parts)[i].base_m, scene.parts[i].base_m);
+    EXPECT_EQ((*parts)[i].top_m, scene.parts[i].top_m);
+    EXPECT_EQ((*parts)[i].top_sigma_m, scene.parts[i].top_sigma_m);
+    EXPECT_EQ((*parts)[i].raised, scene.parts[i].raised);
+  }
 
   const std::vector<StoredDescriptor> stored = DescriptorsOf(*map);
   ASSERT_EQ(stored.size(), scene.origins.size());

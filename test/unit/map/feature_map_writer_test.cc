@@ -273,8 +273,17 @@ TEST(FeatureMapWriter, RefusesWhatAMapCannotHold) {
   EXPECT_FALSE(writer.AddImage(image).ok());
   image.name = "Zürich 北京 \xf0\x9f\x97\xba";
   EXPECT_TRUE(writer.AddImage(image).ok());
-  EXPECT_FALSE(writer.AddBuildingPart({3, {}}).ok());
-  EXPECT_FALSE(writer.AddBuildingPart({3, {{0, 0, INFINITY}}}).ok());
+  BuildingPart part = scene.parts[0];
+  EXPECT_TRUE(writer.AddBuildingPart(part).ok());
+  EXPECT_FALSE(writer.AddBuildingPart(part).ok());
+  part.id = 50;
+  part.footprint_in_enu_m[1].x() = INFINITY;
+  EXPECT_FALSE(writer.AddBuildingPart(part).ok());
+  part = scene.parts[1];
+  std::swap(part.footprint_in_enu_m[0], part.footprint_in_enu_m[1]);
+  EXPECT_THAT(writer.AddBuildingPart(part).error().message, HasSubstr("footprint is not convex"));
+  part.footprint_in_enu_m.clear();
+  EXPECT_FALSE(writer.AddBuildingPart(part).ok());
 
   std::vector<std::uint8_t> descriptor(128);
   DescriptorOrigin origin;

@@ -101,8 +101,8 @@ struct MapScene {
         }
       }
     }
-    parts.push_back({4, {{0, 0, 0}, {9, 0, 0}, {9, 5, 0}, {0, 0, 12.25}}});
-    parts.push_back({9, {{20, 0, 0}, {29, 0, 1.5}, {29, 5, 0}}});
+    parts.push_back({4, "Town hall", {{0, 0}, {9, 0}, {9, 5}, {0, 4.25}}, -1.5, 12.25, 0.5, false});
+    parts.push_back({9, "", {{20, 0}, {29, 0.125}, {29, 5}}, 4.0, 7.5, 2.0, true});
   }
 
   std::size_t bytes_each() const { return DescriptorBytes(info.descriptor_kind); }
