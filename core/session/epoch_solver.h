@@ -42,8 +42,8 @@ class EpochSolver {
   // Fills all of *estimate but its times and the satellites seen, and one status per signal.
   void Solve(const ObservationEpoch& epoch, const PhotoPart& photo, SessionEstimate* estimate,
              std::vector<SatelliteStatus>* statuses);
-  // The photograph with the ranges of the last epoch, where there are any, or without. The estimate is of the
-  // moment of that epoch, and nothing is learned from it.
+  // The photograph with the ranges of the last epoch, where there are any, or without. The estimate
+  // is of the moment of that epoch, and nothing is learned from it.
   void SolvePhoto(const PhotoPart& photo, bool with_epoch, SessionEstimate* estimate);
 
   // Of landmarks that came as ranges, by the last solution.

@@ -107,6 +107,8 @@ void EventLog::NotePhoto(const SessionEstimate& estimate) {
   contradicted_before_ = contradicted;
 }
 
+void EventLog::NoteMapDatum(const std::string& remark) { Add(EventKind::kMapDatum, 0.0, remark); }
+
 void EventLog::NotePhotoFailed(const std::string& reason) {
   if (reason == last_failure_) return;
   last_failure_ = reason;

@@ -34,6 +34,7 @@ class EventLog {
   // Once per run of such photographs.
   void NotePhoto(const SessionEstimate& estimate);
   void NotePhotoFailed(const std::string& reason);
+  void NoteMapDatum(const std::string& remark);
 
   std::span<const SessionEvent> events() const { return events_; }
   void Clear() { events_.clear(); }

@@ -26,7 +26,23 @@ constexpr double kHalfWidth68 = 0.99446;
 
 }  // namespace
 
-PhotoFusion::PhotoFusion(Scheme scheme) : scheme_(scheme), queue_(kFrames) {}
+PhotoFusion::PhotoFusion(Scheme scheme, TimeBase time_base)
+    : scheme_(scheme), time_base_(time_base), queue_(kFrames) {}
+
+void PhotoFusion::UseMap(const FeatureMap* map) {
+  map_ = map;
+  map_frame_.reset();
+  if (map != nullptr) undated_frame_ = FrameForFix(map->info(), std::nullopt);
+}
+
+// Worked out once: within a recording the ground moves by micrometres.
+const MapFrame& PhotoFusion::FrameAt(std::int64_t time_gps_ns, EventLog* events) {
+  if (map_frame_) return *map_frame_;
+  if (time_gps_ns == 0) return undated_frame_;
+  map_frame_ = FrameForFix(map_->info(), YearOfGps(time_gps_ns));
+  if (!map_frame_->remark.empty()) events->NoteMapDatum(map_frame_->remark);
+  return *map_frame_;
+}
 
 Status PhotoFusion::Push(const CameraFrame& frame) {
   if (map_ == nullptr) {
@@ -60,12 +76,17 @@ void PhotoFusion::Look(EpochSolver* solver, SessionEstimate* estimate,
   const CameraFrame& frame = queue_.front();
   const std::int64_t time_ns = frame.time_ns;
   estimate->time_ns = time_ns;
-  if (epoch_gps_ns_ != 0) estimate->time_gps_ns = epoch_gps_ns_ + (time_ns - epoch_ns_);
+  if (time_base_ == TimeBase::kGps) {
+    estimate->time_gps_ns = time_ns;
+  } else if (epoch_gps_ns_ != 0) {
+    estimate->time_gps_ns = epoch_gps_ns_ + (time_ns - epoch_ns_);
+  }
   events->SetTime(time_ns, estimate->time_gps_ns);
   estimate->status = EstimateStatus::kTooFewSatellites;
   sighting_.reset();
   if (scheme_ != Scheme::kGnss && map_ != nullptr) {
-    Result<PhotoSighting> sighting = Sight(*map_, frame, PlaceAt(time_ns));
+    Result<PhotoSighting> sighting =
+        Sight(*map_, FrameAt(estimate->time_gps_ns, events), frame, PlaceAt(time_ns));
     if (sighting) {
       sighting_ = std::move(*sighting);
     } else {

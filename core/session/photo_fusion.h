@@ -18,9 +18,9 @@ namespace lodemark {
 
 class PhotoFusion {
  public:
-  explicit PhotoFusion(Scheme scheme);
+  PhotoFusion(Scheme scheme, TimeBase time_base);
 
-  void UseMap(const FeatureMap* map) { map_ = map; }
+  void UseMap(const FeatureMap* map);
   Status Push(const CameraFrame& frame);
   std::size_t queued() const { return queue_.count(); }
   std::int64_t next_time_ns() const { return queue_.front().time_ns; }  // where one is queued
@@ -41,9 +41,13 @@ class PhotoFusion {
 
  private:
   std::optional<PlacePrior> PlaceAt(std::int64_t time_ns) const;
+  const MapFrame& FrameAt(std::int64_t time_gps_ns, EventLog* events);
 
   Scheme scheme_;
+  TimeBase time_base_;
   const FeatureMap* map_ = nullptr;
+  std::optional<MapFrame> map_frame_;  // once the date is known
+  MapFrame undated_frame_{EnuFrame(Geodetic{}), 0.0, {}};
   FrameQueue queue_;
   std::optional<PhotoSighting> sighting_;  // the latest
   bool sighting_near_ = false;             // of the moment of the last part

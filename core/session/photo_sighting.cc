@@ -22,9 +22,10 @@ ViewPrior ViewFrom(const PlacePrior& place, const CameraFrame& frame, const EnuF
 
 }  // namespace
 
-Result<PhotoSighting> Sight(const FeatureMap& map, const CameraFrame& frame,
-                            const std::optional<PlacePrior>& prior) {
-  PhotoSighting sighting(frame.lens, EnuFrame(map.info().origin));
+Result<PhotoSighting> Sight(const FeatureMap& map, const MapFrame& map_frame,
+                            const CameraFrame& frame, const std::optional<PlacePrior>& prior) {
+  PhotoSighting sighting(frame.lens, map_frame.frame);
+  sighting.frame_sigma_m = map_frame.sigma_m;
   sighting.time_ns = frame.time_ns;
   if (frame.gravity) {
     sighting.attitude.gravity =

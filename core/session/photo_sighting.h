@@ -13,6 +13,7 @@
 #include "core/geo/geodetic.h"
 #include "core/map/feature_map.h"
 #include "core/resection/resection.h"
+#include "core/session/map_frame.h"
 #include "core/session/session.h"
 #include "core/vision/look_up.h"
 
@@ -25,7 +26,8 @@ struct PhotoSighting {
   std::int64_t time_ns = 0;
   Lens lens;
   AttitudePriors attitude;
-  EnuFrame frame;                      // of the map
+  EnuFrame frame;                      // of the map, where satellites put it
+  double frame_sigma_m = 0.0;          // of that, an axis; common to all landmarks
   ResectedPose pose;                   // its sights are the matches
   std::vector<LandmarkMatch> matches;  // of the last look
 
@@ -48,7 +50,7 @@ struct PlacePrior {
 // Looks the photograph up, where it can be by the prior, and resects it. The prior narrows what is
 // asked of the map and nothing else: what comes out does not repeat it. A photograph of elsewhere
 // is no error. image: that of the frame.
-Result<PhotoSighting> Sight(const FeatureMap& map, const CameraFrame& frame,
-                            const std::optional<PlacePrior>& prior);
+Result<PhotoSighting> Sight(const FeatureMap& map, const MapFrame& map_frame,
+                            const CameraFrame& frame, const std::optional<PlacePrior>& prior);
 
 }  // namespace lodemark

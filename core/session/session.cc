@@ -41,7 +41,9 @@ bool NamesChannels(const AndroidEpoch& epoch) {
 
 struct Session::Impl {
   explicit Impl(const SessionOptions& session_options)
-      : options(session_options), solver(session_options), photos(session_options.scheme) {}
+      : options(session_options),
+        solver(session_options),
+        photos(session_options.scheme, session_options.time_base) {}
 
   struct QueuedEpoch {
     std::int64_t time_ns = 0;

@@ -197,6 +197,7 @@ enum class EventKind : std::uint8_t {
   kEphemerisMissing,   // first time that no orbit was found for a satellite
   kPhotoContradicted,  // satellites prove a photograph to be of another place
   kPhotoFailed,        // a photograph could not be looked up: the text says why
+  kMapDatum,           // the map's datum is another than the fix's, or not known
 };
 
 struct SessionEvent {

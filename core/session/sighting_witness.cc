@@ -74,7 +74,15 @@ bool SightingWitness::Prepare(const PhotoSighting& sighting, const Displacement&
   return !matches_.empty();
 }
 
+// What moves all landmarks alike: the receiver's own way since, and the map's datum.
+Eigen::Matrix3d SightingWitness::CommonCovariance(const PhotoSighting& sighting) const {
+  Eigen::Matrix3d common_m2 = moved_.covariance_enu_m2;
+  common_m2.diagonal().array() += sighting.frame_sigma_m * sighting.frame_sigma_m;
+  return common_m2;
+}
+
 void SightingWitness::PrepareBearings(const PhotoSighting& sighting) {
+  const Eigen::Matrix3d common_m2 = CommonCovariance(sighting);
   const bool has_pose = sighting.HasPose();
   const double noise_px = has_pose ? std::max(sighting.pose.noise_px, 1e-3) : kUncheckedNoise_px;
   observations_.clear();
@@ -90,7 +98,7 @@ void SightingWitness::PrepareBearings(const PhotoSighting& sighting) {
   }
   BearingOptions options;
   if (!has_pose) options.wrong_probability = kUncheckedWrong;
-  options.common_covariance_enu_m2 = moved_.covariance_enu_m2;
+  options.common_covariance_enu_m2 = common_m2;
   Eigen::Quaterniond camera_from_ecef = Eigen::Quaterniond::Identity();
   if (has_pose) {
     camera_from_ecef = sighting.pose.camera_from_enu.rotation() *
@@ -114,7 +122,8 @@ void SightingWitness::PrepareVisualRanges(const PhotoSighting& sighting, bool fu
   if (visual.ranges.size() < 3) return;
   const std::size_t step =
       full_covariance ? (visual.ranges.size() + kMostCorrelated - 1) / kMostCorrelated : 1;
-  const Eigen::Matrix3d of_centre_m2 = visual.centre_covariance_m2 + moved_.covariance_enu_m2;
+  const Eigen::Matrix3d common_m2 = CommonCovariance(sighting);
+  const Eigen::Matrix3d of_centre_m2 = visual.centre_covariance_m2 + common_m2;
   points_in_ecef_.clear();
   distances_m_.clear();
   Eigen::MatrixX3d directions(static_cast<Eigen::Index>(visual.ranges.size()), 3);
@@ -137,8 +146,7 @@ void SightingWitness::PrepareVisualRanges(const PhotoSighting& sighting, bool fu
     observation.point_in_ecef = point_in_ecef;
     observation.range_m = range.range_m;
     const double modelled_m = visual.model.offset_m + visual.model.slope * range.range_m;
-    const double moved_m2 =
-        range.direction_in_enu.dot(moved_.covariance_enu_m2 * range.direction_in_enu);
+    const double moved_m2 = range.direction_in_enu.dot(common_m2 * range.direction_in_enu);
     observation.error.sigma_m =
         std::sqrt(std::max(modelled_m * std::abs(modelled_m), 1e-6) + moved_m2);
     observation.clock_group = kNoClock;

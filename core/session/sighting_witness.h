@@ -35,6 +35,7 @@ class SightingWitness {
              SessionEstimate* estimate, std::vector<LandmarkStatus>* statuses) const;
 
  private:
+  Eigen::Matrix3d CommonCovariance(const PhotoSighting& sighting) const;
   void PrepareBearings(const PhotoSighting& sighting);
   void PrepareVisualRanges(const PhotoSighting& sighting, bool full_covariance);
 

@@ -878,6 +878,7 @@ LODEMARK_API lodemark_status lodemark_session_landmarks(const lodemark_session* 
 #define LODEMARK_EVENT_EPHEMERIS_MISSING 6  /* first time that a satellite had no orbit */
 #define LODEMARK_EVENT_PHOTO_CONTRADICTED 7 /* by satellites: it is of another place */
 #define LODEMARK_EVENT_PHOTO_FAILED 8       /* it could not be looked up; the text says why */
+#define LODEMARK_EVENT_MAP_DATUM 9          /* the map was moved to where satellites put it */
 
 /* Something that happened in between. */
 typedef struct lodemark_event {
