@@ -9,6 +9,7 @@
 #include "core/base/units.h"
 #include "core/resection/noise_scale.h"
 #include "core/resection/refinement.h"
+#include "core/resection/shared_errors.h"
 
 namespace lodemark {
 namespace {
@@ -159,6 +160,13 @@ class Adjustment {
         std::sqrt(std::max(kept_, 0.5));
     adjusted_.covariance = CovarianceOf(adjusted_.pose, sights_, adjusted_.is_inlier, lens_,
                                         priors_, adjusted_.covariance_noise_px, intrinsics);
+    if (adjusted_.covariance.is_determined) {
+      const SharedErrors shared = FindSharedErrors(adjusted_.pose, sights_, adjusted_.is_inlier,
+                                                   lens_, adjusted_.covariance_noise_px,
+                                                   adjusted_.covariance.given_lens, intrinsics);
+      adjusted_.covariance.covariance += shared.of_pose;
+      adjusted_.shared_sigma_m = shared.sigma_m;
+    }
     adjusted_.residuals_px.reserve(sights_.size());
     for (const Residual& residual : residuals_) {
       adjusted_.residuals_px.push_back(

@@ -25,7 +25,8 @@ struct AdjustedPose {
   std::vector<std::uint8_t> is_inlier;
   std::vector<Eigen::Vector2d> residuals_px;  // not a number where there is none
   int inliers = 0;
-  PoseCovariance covariance;
+  PoseCovariance covariance;    // with what the errors of neighbouring landmarks have in common
+  double shared_sigma_m = 0.0;  // of that
 };
 
 // threshold_px: within it, sights agree at the start.

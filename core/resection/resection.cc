@@ -213,6 +213,7 @@ class Resection {
     result_.camera_from_enu = input_.CameraFromEnu(adjusted.pose);
     result_.covariance = adjusted.covariance.covariance;
     result_.covariance_given_lens = adjusted.covariance.given_lens;
+    result_.shared_sigma_m = adjusted.shared_sigma_m;
     for (std::size_t k = 0; k < input_.order.size(); ++k) {
       result_.is_inlier[input_.order[k]] = adjusted.is_inlier[k];
       result_.residuals_px[input_.order[k]] = adjusted.residuals_px[k];

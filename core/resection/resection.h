@@ -45,8 +45,11 @@ struct ResectedPose {
   // Of the camera's centre (east, north, up, in m2) and then of small rotations of the camera about
   // east, north and up (rad2): enu_from_camera = exp(rotation) * estimate.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  // The same were the lens known exactly.
+  // The same were the lens known exactly and the landmarks' errors independent of each other.
   Eigen::Matrix<double, 6, 6> covariance_given_lens = Eigen::Matrix<double, 6, 6>::Zero();
+  // Of each coordinate of what neighbouring landmarks' errors have in common, as the residuals show
+  // it. The covariance counts it.
+  double shared_sigma_m = 0.0;
   std::optional<Rigid3> alternative;    // camera_from_enu, when ambiguous
   double noise_px = 0.0;                // of a sight with pixel_sigma_px 1, estimated
   std::vector<std::uint8_t> is_inlier;  // one for each sight

@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <tuple>
@@ -251,6 +252,76 @@ TEST(PoseCovariance, HoldsWithUncertainLandmarks) {
         &of_centre, &of_pose);
     ExpectConsistent(of_centre, of_pose);
   }
+}
+
+// A smooth field of errors: waves of random direction, some tens of metres long.
+class ErrorField {
+ public:
+  ErrorField(double sigma_m, double length_m, Random* random) : sigma_m_(sigma_m) {
+    for (Wave& wave : waves_) {
+      wave.along = Eigen::Vector3d(random->Gaussian(), random->Gaussian(), random->Gaussian());
+      wave.along /= length_m;
+      wave.moves = Eigen::Vector3d(random->Gaussian(), random->Gaussian(), random->Gaussian());
+      wave.phase = random->Uniform(0.0, 6.283185307179586);
+    }
+  }
+  Eigen::Vector3d At(const Eigen::Vector3d& place) const {
+    Eigen::Vector3d error = Eigen::Vector3d::Zero();
+    for (const Wave& wave : waves_)
+      error += std::cos(wave.along.dot(place) + wave.phase) * wave.moves;
+    return sigma_m_ * std::sqrt(2.0 / waves_.size()) * error;
+  }
+
+ private:
+  struct Wave {
+    Eigen::Vector3d along;
+    Eigen::Vector3d moves;
+    double phase = 0.0;
+  };
+  std::array<Wave, 30> waves_;
+  double sigma_m_;
+};
+
+// The residuals show only the part of the field that the pose has not swallowed; what is stated for
+// the rest is its most likely size.
+TEST(PoseCovariance, CountsWhatNeighbouringLandmarksHaveInCommon) {
+  SceneOptions options;
+  options.sights = 600;
+  options.outlier_share = 0.3;
+  options.noise_px = 0.5;
+  options.nearest_m = 15.0;
+  options.farthest_m = 25.0;
+  Consistency independent;
+  Consistency shared;
+  double sigma_m = 0.0;
+  constexpr int kScenes = 150;
+  for (int k = 0; k < kScenes; ++k) {
+    options.seed = 31'000 + static_cast<std::uint64_t>(k);
+    ResectionScene scene = MakeResectionScene(options);
+    Random random(options.seed);
+    const ErrorField field(0.02, 8.0, &random);
+    for (LandmarkSight& sight : scene.sights) {
+      const Eigen::Vector3d error = field.At(sight.landmark_in_enu_m);
+      sight.landmark_in_enu_m += error;
+    }
+    const Result<ResectedPose> pose = Resect(scene.sights, scene.lens, scene.priors, {});
+    ASSERT_TRUE(pose.ok());
+    const Eigen::Vector3d error = PoseError(*pose, scene).head<3>();
+    const Eigen::Matrix3d alone = pose->covariance_given_lens.topLeftCorner<3, 3>();
+    const Eigen::Matrix3d stated = pose->covariance.topLeftCorner<3, 3>();
+    independent.Add(SquaredDistance(alone, error), kChiSquare3_95);
+    shared.Add(SquaredDistance(stated, error), kChiSquare3_95);
+    sigma_m += pose->shared_sigma_m / kScenes;
+  }
+  std::printf("independent: %.1f, %.3f; shared: %.2f, %.3f; sigma %.4f m\n",
+              independent.mean_square, independent.within_95, shared.mean_square, shared.within_95,
+              sigma_m);
+  EXPECT_GT(independent.mean_square, 200.0);
+  EXPECT_LT(independent.within_95, 0.05);
+  EXPECT_LT(shared.mean_square, 12.0);
+  EXPECT_GT(shared.within_95, 0.5);
+  EXPECT_GT(sigma_m, 0.01);
+  EXPECT_LT(sigma_m, 0.04);
 }
 
 TEST(PoseCovariance, HoldsWithAnUncertainLens) {
