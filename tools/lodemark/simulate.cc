@@ -8,6 +8,7 @@
 #include "tools/lodemark/command.h"
 #include "tools/lodemark/progress_bar.h"
 #include "tools/lodemark/subcommands.h"
+#include "tools/simulator/photo_files.h"
 #include "tools/simulator/recording.h"
 #include "tools/simulator/scenario.h"
 
@@ -70,16 +71,30 @@ int RunSimulate(const SimulateOptions& options) {
   if (!folder.ok()) return ReportError(folder.error());
 
   ProgressBar progress("Simulating", StderrIsTerminal());
-  const RecordingFiles files =
-      MakeRecording(*scenario, [&](double share) { progress.Update(share); });
+  RecordingFiles files = MakeRecording(*scenario, [&](double share) { progress.Update(share); });
   progress.Finish();
+  if (!scenario->photography.groups.empty()) {
+    ProgressBar photos_progress("Photographing", StderrIsTerminal());
+    Result<RecordingFiles> photos =
+        MakePhotos(*scenario, [&](double share) { photos_progress.Update(share); });
+    photos_progress.Finish();
+    if (!photos) {
+      return ReportError({photos.error().code, options.scenario + ": " + photos.error().message});
+    }
+    files.merge(std::move(photos).value());
+  }
 
   std::error_code failure;
   fs::create_directories(options.out, failure);
   if (failure) return ReportError({ErrorCode::kIo, options.out + ": " + failure.message()});
   std::size_t bytes = 0;
   for (const auto& [name, content] : files) {
-    const Status written = WriteFileWhole((fs::path(options.out) / name).string(), content);
+    const fs::path path = fs::path(options.out) / name;
+    fs::create_directories(path.parent_path(), failure);
+    if (failure) {
+      return ReportError({ErrorCode::kIo, path.parent_path().string() + ": " + failure.message()});
+    }
+    const Status written = WriteFileWhole(path.string(), content);
     if (!written.ok()) return ReportError(written.error());
     bytes += content.size();
   }

@@ -35,10 +35,13 @@ bool DecodeGrey(const std::uint8_t* bytes, std::size_t size, std::int64_t larges
 }
 
 bool EncodeColour(const char* ending, const std::uint8_t* pixels, int width_px, int height_px,
-                  std::vector<std::uint8_t>* bytes, std::string* reason) {
+                  int jpeg_quality, std::vector<std::uint8_t>* bytes, std::string* reason) {
   try {
     const cv::Mat picture(height_px, width_px, CV_8UC3, const_cast<std::uint8_t*>(pixels));
-    if (cv::imencode(ending, picture, *bytes)) return true;
+    // A PNG ignores what is meant for a JPEG.
+    if (cv::imencode(ending, picture, *bytes, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality})) {
+      return true;
+    }
     *reason = "cannot be encoded";
   } catch (const cv::Exception& exception) {
     *reason = "cannot be encoded: " + exception.err;

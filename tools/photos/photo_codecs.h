@@ -16,9 +16,10 @@ struct PhotoCodecs {
                       int* width_px, int* height_px, std::vector<std::uint8_t>* pixels,
                       std::string* reason);
 
-  // Blue, green, red of each pixel, as the kind of file that ending (".png", ".jpg") names.
+  // Blue, green, red of each pixel, as the kind of file that ending (".png", ".jpg") names; of a
+  // JPEG the quality is 1 .. 100.
   bool (*encode_colour)(const char* ending, const std::uint8_t* pixels, int width_px, int height_px,
-                        std::vector<std::uint8_t>* bytes, std::string* reason);
+                        int jpeg_quality, std::vector<std::uint8_t>* bytes, std::string* reason);
 };
 
 // Name of the function without arguments that gives a const PhotoCodecs*.

@@ -19,8 +19,8 @@ namespace {
 constexpr std::int64_t kLargestFile_bytes = 512LL << 20;
 constexpr std::int64_t kLargestPhoto_px = 200'000'000;
 
-// The codecs in the lib folder beside the program's own. Not left to the program's RUNPATH, which the
-// loader does not ask when a sanitizer calls it on our behalf.
+// The codecs in the lib folder beside the program's own. Not left to the program's RUNPATH, which
+// the loader does not ask when a sanitizer calls it on our behalf.
 void* OpenBesideProgram() {
   std::error_code failed;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failed);
@@ -102,7 +102,7 @@ Result<Photo> ReadPhoto(const std::string& path) {
   return photo;
 }
 
-Result<std::string> EncodePicture(const Picture& picture, std::string_view path) {
+Result<std::string> EncodePicture(const Picture& picture, std::string_view path, int jpeg_quality) {
   std::string ending;
   for (const char* known : {".png", ".jpg", ".jpeg"}) {
     if (path.ends_with(known)) ending = known;
@@ -116,7 +116,7 @@ Result<std::string> EncodePicture(const Picture& picture, std::string_view path)
   std::vector<std::uint8_t> bytes;
   std::string reason;
   if (!(*codecs)->encode_colour(ending.c_str(), picture.pixels.data(), picture.width_px,
-                                picture.height_px, &bytes, &reason)) {
+                                picture.height_px, jpeg_quality, &bytes, &reason)) {
     return Error{ErrorCode::kInternal, std::string(path) + ": " + reason};
   }
   return std::string(bytes.begin(), bytes.end());

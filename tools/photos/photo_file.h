@@ -29,7 +29,8 @@ struct Picture {
   std::vector<std::uint8_t> pixels;
 };
 
-// The bytes of a PNG or JPEG file. Error for another ending of path.
-Result<std::string> EncodePicture(const Picture& picture, std::string_view path);
+// The bytes of a PNG or JPEG file. Error for another ending of path. jpeg_quality is 1 .. 100.
+Result<std::string> EncodePicture(const Picture& picture, std::string_view path,
+                                  int jpeg_quality = 95);
 
 }  // namespace lodemark

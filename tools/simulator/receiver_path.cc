@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kCornerRadius_m = 2.5;
 constexpr double kAcceleration_mps2 = 0.6;
-constexpr double kRise_m = 0.8;      // the street is not level
 constexpr double kRiseWay_m = 90.0;  // from low to low
 
 Eigen::Vector2d Along(double heading_rad) { return {std::sin(heading_rad), std::cos(heading_rad)}; }
@@ -18,13 +17,24 @@ Eigen::Vector2d Along(double heading_rad) { return {std::sin(heading_rad), std::
 }  // namespace
 
 ReceiverPath::ReceiverPath(const Scenario& scenario)
-    : speed_mps_(scenario.speed_mps), pause_s_(scenario.pause_s) {
+    : speed_mps_(scenario.speed_mps), pause_s_(scenario.pause_s), rise_m_(scenario.rise_m) {
   std::vector<Eigen::Vector2d> corners;
   for (const auto& [east_m, north_m] : scenario.waypoints_m) {
     const Eigen::Vector2d corner(east_m, north_m);
     if (corners.empty() || (corner - corners.back()).norm() > 0.01) corners.push_back(corner);
   }
   if (corners.size() < 2) return;
+  if (scenario.stop_s > 0.0 && corners.size() > 2) {
+    Scenario leg = scenario;
+    leg.rise_m = 0.0;  // the height would jump from leg to leg
+    for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+      leg.waypoints_m = {{corners[i].x(), corners[i].y()},
+                         {corners[i + 1].x(), corners[i + 1].y()}};
+      leg.pause_s = i == 0 ? scenario.pause_s : scenario.stop_s;
+      legs_.emplace_back(leg);
+    }
+    return;
+  }
   const auto append = [this](Piece piece) {
     if (piece.length_m < 1e-9) return;
     piece.begin_m = length_m_;
@@ -58,15 +68,33 @@ ReceiverPath::ReceiverPath(const Scenario& scenario)
   }
 }
 
+ReceiverPath::Ride ReceiverPath::RideOf() const {
+  Ride ride;
+  ride.peak_mps = std::min(speed_mps_, std::sqrt(length_m_ * kAcceleration_mps2));
+  ride.ramp_s = ride.peak_mps / kAcceleration_mps2;
+  ride.ramp_m = 0.5 * ride.peak_mps * ride.ramp_s;
+  ride.roll_s = (length_m_ - 2.0 * ride.ramp_m) / ride.peak_mps;
+  return ride;
+}
+
+double ReceiverPath::Duration() const {
+  if (pieces_.empty()) return pause_s_;
+  const Ride ride = RideOf();
+  return pause_s_ + 2.0 * ride.ramp_s + ride.roll_s;
+}
+
 ReceiverState ReceiverPath::At(double time_s) const {
+  if (!legs_.empty()) {
+    std::size_t leg = 0;
+    while (leg + 1 < legs_.size() && time_s >= legs_[leg].Duration()) {
+      time_s -= legs_[leg++].Duration();
+    }
+    return legs_[leg].At(time_s);
+  }
   ReceiverState state;
   if (pieces_.empty()) return state;
-  // Way and speed of a ride that speeds up, rolls, and slows down to stand at the end.
   const double moving_s = std::max(0.0, time_s - pause_s_);
-  const double peak_mps = std::min(speed_mps_, std::sqrt(length_m_ * kAcceleration_mps2));
-  const double ramp_s = peak_mps / kAcceleration_mps2;
-  const double ramp_m = 0.5 * peak_mps * ramp_s;
-  const double roll_s = (length_m_ - 2.0 * ramp_m) / peak_mps;
+  const auto [ramp_s, ramp_m, roll_s, peak_mps] = RideOf();
   double way_m = 0.0;
   double speed_mps = 0.0;
   if (moving_s < ramp_s) {
@@ -97,9 +125,9 @@ ReceiverState ReceiverPath::At(double time_s) const {
   }
   const Eigen::Vector2d velocity = speed_mps * Along(heading_rad);
   const double rise_phase = 2.0 * kPi * way_m / kRiseWay_m;
-  state.position_in_enu = {at.x(), at.y(), 0.5 * kRise_m * (1.0 - std::cos(rise_phase))};
+  state.position_in_enu = {at.x(), at.y(), 0.5 * rise_m_ * (1.0 - std::cos(rise_phase))};
   state.velocity_in_enu = {velocity.x(), velocity.y(),
-                           kRise_m * kPi / kRiseWay_m * std::sin(rise_phase) * speed_mps};
+                           rise_m_ * kPi / kRiseWay_m * std::sin(rise_phase) * speed_mps};
   state.heading_rad = heading_rad;
   state.turn_rate_radps = piece->curvature_pm * speed_mps;
   return state;

@@ -15,7 +15,8 @@ struct ReceiverState {
   double turn_rate_radps = 0.0;
 };
 
-// Corners are rounded, and walking starts and ends gently, so position and velocity are continuous.
+// Corners are rounded, or stopped at, and walking starts and ends gently, so position and velocity
+// are continuous.
 class ReceiverPath {
  public:
   explicit ReceiverPath(const Scenario& scenario);
@@ -24,6 +25,18 @@ class ReceiverPath {
   ReceiverState At(double time_s) const;
 
  private:
+  // How long it takes from the start until it stands for good.
+  double Duration() const;
+
+  // A ride that speeds up, rolls, and slows down to stand at the end.
+  struct Ride {
+    double ramp_s = 0.0;
+    double ramp_m = 0.0;
+    double roll_s = 0.0;
+    double peak_mps = 0.0;
+  };
+  Ride RideOf() const;
+
   // A straight stretch or, with a radius, an arc.
   struct Piece {
     double begin_m = 0.0;  // way from the start
@@ -33,10 +46,12 @@ class ReceiverPath {
     double curvature_pm = 0.0;  // positive to the right
   };
 
+  std::vector<ReceiverPath> legs_;  // where it stops at corners: one after another
   std::vector<Piece> pieces_;
   double length_m_ = 0.0;
   double speed_mps_;
   double pause_s_;
+  double rise_m_;
 };
 
 }  // namespace lodemark

@@ -154,7 +154,17 @@ std::string ManifestText(const Scenario& scenario) {
        {{"gnss_log", "gnss_log.txt"}, {"navigation", "navigation.rnx"}, {"truth", "truth.csv"}}},
       {"truth_quality", "exact: simulated"},
       {"seed", scenario.seed},
+      {"origin_deg_m",
+       {scenario.place.latitude_rad * kDegreesPerRadian,
+        scenario.place.longitude_rad * kDegreesPerRadian, scenario.place.height_m}},
       {"notes", "Made by lodemark simulate. No measurement in it was ever taken."}};
+  for (const PhotoGroup& group : scenario.photography.groups) {
+    // The phone's own photographs, and those that a map is made from.
+    const std::string role = group.frames.empty() ? group.folder + "_" : "";
+    manifest["files"][role + "poses"] = group.folder + "/poses.csv";
+    manifest["files"][role + "camera"] = group.folder + "/camera.json";
+    if (!group.frames.empty()) manifest["files"]["images"] = group.folder + "/data.csv";
+  }
   return manifest.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

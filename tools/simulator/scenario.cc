@@ -7,6 +7,8 @@
 
 #include "core/base/units.h"
 #include "core/geo/time.h"
+#include "tools/simulator/photo_fields.h"
+#include "tools/simulator/scenario_fields.h"
 
 namespace lodemark {
 namespace {
@@ -24,77 +26,6 @@ Scenario Base() {
   return scenario;
 }
 
-class Fields {
- public:
-  Fields(const std::string& file, const json& object, std::string prefix)
-      : file_(file), object_(object), prefix_(std::move(prefix)) {}
-
-  // Leaves *value alone where the field is missing.
-  void Number(const char* name, double low, double high, double* value) {
-    const json* field = Take(name);
-    if (field == nullptr) return;
-    if (!field->is_number()) return Fail(name, "has to be a number");
-    const double number = field->get<double>();
-    if (!(number >= low && number <= high)) {
-      char text[96];
-      std::snprintf(text, sizeof text, "has to lie between %g and %g", low, high);
-      return Fail(name, text);
-    }
-    *value = number;
-  }
-
-  void Integer(const char* name, std::int64_t low, std::int64_t high, std::int64_t* value) {
-    const json* field = Take(name);
-    if (field == nullptr) return;
-    if (!field->is_number_integer()) return Fail(name, "has to be a whole number");
-    const std::int64_t number = field->get<std::int64_t>();
-    if (number < low || number > high) {
-      return Fail(name,
-                  "has to lie between " + std::to_string(low) + " and " + std::to_string(high));
-    }
-    *value = number;
-  }
-
-  void Text(const char* name, std::string* value) {
-    const json* field = Take(name);
-    if (field == nullptr) return;
-    if (!field->is_string()) return Fail(name, "has to be a text");
-    *value = field->get<std::string>();
-  }
-
-  const json* Take(const char* name) {
-    taken_.emplace_back(name);
-    const auto found = object_.find(name);
-    return found == object_.end() ? nullptr : &*found;
-  }
-
-  void Fail(const std::string& name, const std::string& why) {
-    if (!error_) error_ = Error{ErrorCode::kBadData, file_ + ": " + prefix_ + name + " " + why};
-  }
-
-  // Takes over the failure of an object inside.
-  void Adopt(const Error& error) {
-    if (!error_) error_ = error;
-  }
-
-  // The first failure; an unknown field is one.
-  std::optional<Error> Verdict() {
-    for (const auto& [name, value] : object_.items()) {
-      bool known = false;
-      for (const std::string& taken : taken_) known = known || taken == name;
-      if (!known) Fail(name, "is not a field of a scenario");
-    }
-    return error_;
-  }
-
- private:
-  const std::string& file_;
-  const json& object_;
-  std::string prefix_;
-  std::vector<std::string> taken_;
-  std::optional<Error> error_;
-};
-
 // "2024-05-16T02:00:00" in GPS time.
 std::optional<std::int64_t> TimeFromText(const std::string& text) {
   CalendarTime c;
@@ -107,7 +38,7 @@ std::optional<std::int64_t> TimeFromText(const std::string& text) {
   return NanosecondsFromCalendar(c);
 }
 
-void ReadWaypoints(const json& list, Fields* fields, Scenario* scenario) {
+void ReadWaypoints(const json& list, ScenarioFields* fields, Scenario* scenario) {
   constexpr std::size_t kMostWaypoints = 10'000;
   constexpr double kFarthest_m = 20e3;
   scenario->waypoints_m.clear();
@@ -125,9 +56,10 @@ void ReadWaypoints(const json& list, Fields* fields, Scenario* scenario) {
   }
 }
 
-void ReadPlace(const std::string& file, const json& object, Fields* parent, Scenario* scenario) {
+void ReadPlace(const std::string& file, const json& object, ScenarioFields* parent,
+               Scenario* scenario) {
   if (!object.is_object()) return parent->Fail("place", "has to be an object");
-  Fields fields(file, object, "place.");
+  ScenarioFields fields(file, object, "place.");
   double latitude_deg = scenario->place.latitude_rad * kDegreesPerRadian;
   double longitude_deg = scenario->place.longitude_rad * kDegreesPerRadian;
   fields.Number("latitude_deg", -89.9, 89.9, &latitude_deg);
@@ -137,8 +69,7 @@ void ReadPlace(const std::string& file, const json& object, Fields* parent, Scen
   fields.Text("name", &scenario->place_name);
   scenario->place.latitude_rad = latitude_deg * kRadiansPerDegree;
   scenario->place.longitude_rad = longitude_deg * kRadiansPerDegree;
-  const std::optional<Error> error = fields.Verdict();
-  if (error) parent->Adopt(*error);
+  parent->Adopt(fields.Verdict());
 }
 
 }  // namespace
@@ -165,7 +96,7 @@ Result<Scenario> ScenarioFromJson(const std::string& file, std::string_view text
     return Error{ErrorCode::kBadData, file + ": has to hold one JSON object"};
   }
   Scenario scenario = Base();
-  Fields fields(file, object, "");
+  ScenarioFields fields(file, object, "");
   fields.Text("name", &scenario.name);
   if (const json* place = fields.Take("place")) ReadPlace(file, *place, &fields, &scenario);
   std::string start;
@@ -198,6 +129,10 @@ Result<Scenario> ScenarioFromJson(const std::string& file, std::string_view text
   if (const json* list = fields.Take("waypoints_m")) ReadWaypoints(*list, &fields, &scenario);
   fields.Number("speed_mps", 0.1, 60.0, &scenario.speed_mps);
   fields.Number("pause_s", 0.0, 3600.0, &scenario.pause_s);
+  fields.Number("stop_s", 0.0, 3600.0, &scenario.stop_s);
+  ReadPhotoFields(&fields, &scenario.photography);
+  // The ground that photographs show is level.
+  if (!scenario.photography.groups.empty()) scenario.rise_m = 0.0;
   const std::optional<Error> error = fields.Verdict();
   if (error) return *error;
   return scenario;

@@ -9,6 +9,7 @@
 
 #include "core/base/result.h"
 #include "core/geo/geodetic.h"
+#include "tools/simulator/photography.h"
 
 namespace lodemark {
 
@@ -29,6 +30,10 @@ struct Scenario {
   std::vector<std::array<double, 2>> waypoints_m;
   double speed_mps = 1.35;
   double pause_s = 5.0;  // standing before the first step
+  double stop_s = 0.0;   // standing at each corner between; 0: corners are rounded without a stop
+  double rise_m = 0.8;   // how much higher the highest part of the way is than the lowest
+
+  Photography photography;
 };
 
 // "static" or "walk".
