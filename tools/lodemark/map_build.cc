@@ -1,6 +1,8 @@
-// lodemark map build: a feature map from surveyed marks, from posed photographs, or from a table.
+// lodemark map build: a feature map from surveyed marks, from posed photographs, or from a table;
+// with buildings, or of buildings alone.
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -9,6 +11,7 @@
 #include "tools/lodemark/command.h"
 #include "tools/lodemark/map_commands.h"
 #include "tools/lodemark/text_table.h"
+#include "tools/mapping/building_map.h"
 #include "tools/mapping/landmark_map.h"
 #include "tools/mapping/marked_map.h"
 #include "tools/mapping/posed_map.h"
@@ -29,6 +32,9 @@ struct MapBuildOptions {
   std::string landmarks;
   std::string descriptors;
   std::string descriptor_ids;
+  std::string buildings;
+  std::optional<double> ground_m;
+  HeightRules heights;
   double sigma_m = 0.0;
   double ratio = 0.8;
   int features = 8000;
@@ -105,16 +111,31 @@ Result<BuiltMap> BuildFromMarks(const MapBuildOptions& options, const FrameOptio
   return BuildMarkedMap(input, StageBars());
 }
 
-// Which of the three ways; an error if the options name none, several, or one in part.
-enum class BuildWay : std::uint8_t { kMarks, kPoses, kTable };
+BuildingInput BuildingsFrom(const MapBuildOptions& options) {
+  BuildingInput input;
+  input.footprints = options.buildings;
+  input.ground_m = options.ground_m;
+  input.heights = options.heights;
+  return input;
+}
+
+// Which of the ways; an error if the options name none, several, or one in part.
+enum class BuildWay : std::uint8_t { kMarks, kPoses, kTable, kBuildings };
 Result<BuildWay> WayOf(const MapBuildOptions& options) {
   const auto invalid = [](const char* text) { return Error{ErrorCode::kInvalidArgument, text}; };
   const int ways = (options.marks.empty() ? 0 : 1) + (options.poses.empty() ? 0 : 1) +
                    (options.landmarks.empty() ? 0 : 1);
+  if (ways == 0 && !options.buildings.empty()) {
+    if (options.images.empty() && options.map.keep.empty()) return BuildWay::kBuildings;
+    return invalid("--images and --keep make no sense with --buildings alone");
+  }
   if (ways != 1) {
     return invalid(
         "name one thing to build from: --images with --marks and --survey, --images with --poses, "
-        "or --landmarks with --descriptors and --descriptor-ids");
+        "or --landmarks with --descriptors and --descriptor-ids; besides or instead --buildings");
+  }
+  if (options.ground_m && options.buildings.empty()) {
+    return invalid("--ground says how high the ground of --buildings lies, which are missing");
   }
   if (!options.landmarks.empty()) {
     if (!options.descriptors.empty() && !options.descriptor_ids.empty()) return BuildWay::kTable;
@@ -153,8 +174,18 @@ int RunMapBuild(const MapBuildOptions& options) {
       built = BuildFromTable(options, *frame, *places);
       source = options.landmarks;
       break;
+    case BuildWay::kBuildings:
+      built = BuildBuildingMap(BuildingsFrom(options), *frame,
+                               {options.map.datum, options.map.epoch_year}, StageBars());
+      source = options.buildings;
+      break;
   }
   if (!built) return ReportError(built.error());
+  if (*way != BuildWay::kBuildings && !options.buildings.empty()) {
+    const Status added = AddBuildings(BuildingsFrom(options), StageBars(), &*built);
+    if (!added) return ReportError(added.error());
+    source += " and " + options.buildings;
+  }
   const std::string how = "lodemark " + VersionText() + " map build from " + source;
   return FinishMap(options.map, how, std::move(built).value());
 }
@@ -163,7 +194,8 @@ int RunMapBuild(const MapBuildOptions& options) {
 
 void AddMapBuildCommand(CLI::App& map, int* exit_code) {
   const auto options = std::make_shared<MapBuildOptions>();
-  CLI::App* command = map.add_subcommand("build", "Make a map of photographs or of a table");
+  CLI::App* command =
+      map.add_subcommand("build", "Make a map of photographs, of a table, or of buildings");
   AddNewMapOptions(*command, &options->map);
   command->add_option("--kind", options->kind, "Of the descriptors")
       ->check(CLI::IsMember({"sift", "orb"}))
@@ -183,6 +215,28 @@ void AddMapBuildCommand(CLI::App& map, int* exit_code) {
   command->add_option("--descriptors", options->descriptors, "Their bytes, one after another");
   command->add_option("--descriptor-ids", options->descriptor_ids,
                       "32-bit landmark_id of each descriptor");
+  const std::string buildings = "Buildings";
+  command
+      ->add_option(
+          "--buildings", options->buildings,
+          "GeoJSON of footprints with height or building:levels, as OpenStreetMap has them")
+      ->group(buildings);
+  command
+      ->add_option("--ground", options->ground_m,
+                   "Height of the ground above the ellipsoid in m; default: the origin's")
+      ->check(CLI::Range(-12'000.0, 9'000.0))
+      ->group(buildings);
+  command
+      ->add_option("--default-height", options->heights.default_m,
+                   "Of buildings without height and levels, in m")
+      ->check(CLI::Range(1.0, 500.0))
+      ->capture_default_str()
+      ->group(buildings);
+  command
+      ->add_option("--default-height-sigma", options->heights.default_sigma_m, "Its 1 sigma, in m")
+      ->check(CLI::Range(0.0, 200.0))
+      ->capture_default_str()
+      ->group(buildings);
   command
       ->add_option(
           "--sigma", options->sigma_m,

@@ -196,11 +196,15 @@ int FinishMap(const NewMapOptions& options, const std::string& how, BuiltMap bui
   const auto landmarks = static_cast<std::int64_t>(built.content.landmarks.size());
   const auto descriptors = static_cast<std::int64_t>(built.content.origins.size());
   const auto images = static_cast<std::int64_t>(built.content.images.size());
+  const auto parts = static_cast<std::int64_t>(built.content.building_parts.size());
+  const auto buildings = static_cast<std::int64_t>(built.buildings);
   if (options.json) {
     ordered_json json = {{"map", options.out},
                          {"landmarks", landmarks},
                          {"descriptors", descriptors},
                          {"images", images},
+                         {"buildings", buildings},
+                         {"building_parts", parts},
                          {"median_sigma_m", MedianSigma(built.content.landmarks)}};
     if (built.noise_px > 0.0) json["noise_px"] = built.noise_px;
     if (built.registration) json["registration"] = RegistrationJson(built);
@@ -210,10 +214,17 @@ int FinishMap(const NewMapOptions& options, const std::string& how, BuiltMap bui
   }
   std::string text;
   if (built.registration) text += RegistrationText(built, StdoutIsTerminal());
-  text += Printable(options.out) + ": " + Counted(landmarks, "landmark") + " with " +
-          Counted(descriptors, "descriptor") + " from " + Counted(images, "image") +
-          Format(", sigma %.3f m in the middle", MedianSigma(built.content.landmarks));
-  if (built.noise_px > 0.0) text += Format(", features within %.2f px", built.noise_px);
+  text += Printable(options.out) + ": ";
+  if (landmarks > 0 || buildings == 0) {
+    text += Counted(landmarks, "landmark") + " with " + Counted(descriptors, "descriptor") +
+            " from " + Counted(images, "image") +
+            Format(", sigma %.3f m in the middle", MedianSigma(built.content.landmarks));
+    if (built.noise_px > 0.0) text += Format(", features within %.2f px", built.noise_px);
+    if (buildings > 0) text += "; ";
+  }
+  if (buildings > 0) {
+    text += Counted(buildings, "building") + " in " + Counted(parts, "convex part");
+  }
   PrintResult(text + "\n");
   return kExitGood;
 }

@@ -27,6 +27,7 @@ struct BuiltMap {
   // Where a model was laid on the earth, and the names of the places that held it.
   std::optional<Georegistration> registration;
   std::vector<std::string> tie_names;
+  std::size_t buildings = 0;       // whose parts are in the content
   double noise_px = 0.0;           // of the features; 0 where nothing was triangulated
   std::vector<std::string> notes;  // sentences on what was passed over
 };

@@ -36,6 +36,10 @@ Status Fill(const MapContent& content, std::size_t descriptor_bytes, const Progr
     if (!status.ok()) return status;
     if (++done % 1024 == 0) progress(static_cast<double>(done) / work);
   }
+  for (const BuildingPart& part : content.building_parts) {
+    const Status status = writer->AddBuildingPart(part);
+    if (!status.ok()) return status;
+  }
   const std::span<const DescriptorOrigin> origins = content.origins;
   const std::span<const std::uint8_t> descriptors = content.descriptors;
   for (std::size_t at = 0; at < origins.size(); at += kDescriptorsAtOnce) {

@@ -16,8 +16,9 @@
 namespace lodemark {
 
 struct MapContent {
-  std::vector<Landmark> landmarks;        // in ascending order of id
-  std::vector<DatabaseImage> images;      // in ascending order of id, from 1; 0 means no image
+  std::vector<Landmark> landmarks;    // in ascending order of id
+  std::vector<DatabaseImage> images;  // in ascending order of id, from 1; 0 means no image
+  std::vector<BuildingPart> building_parts;
   std::vector<DescriptorOrigin> origins;  // one for each descriptor
   std::vector<std::uint8_t> descriptors;  // one after another
   // Where the feature was in its image, 0 .. 1 across and down; one for each descriptor, or none.
