@@ -10,7 +10,7 @@
 namespace lodemark {
 namespace {
 
-constexpr float kMiddleGrey = 0.42F;
+constexpr float kMiddleGrey = 0.33F;
 
 std::size_t Index(int x_px, int y_px, int width_px) {
   return static_cast<std::size_t>(y_px) * static_cast<std::size_t>(width_px) +
