@@ -208,7 +208,6 @@ void ReadGroup(const std::map<std::string, Daylight>& days, ScenarioFields* fiel
   if (group.standpoints.empty() && group.frames.empty()) {
     fields->Fail("standpoints", "or frames have to be given");
   }
-  fields->Number("camera_height_m", 0.1, 50.0, &group.camera_height_m);
   fields->Flag("survey", &group.survey);
   std::int64_t people = group.most_people;
   fields->Integer("people", 0, 50, &people);

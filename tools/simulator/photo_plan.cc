@@ -51,8 +51,7 @@ std::vector<PlannedPhoto> PlanPhotos(const Scenario& scenario, const PhotoGroup&
       if (series.ahead) hold.heading_rad += state.heading_rad;
       PlannedPhoto photo;
       photo.hold = hold;
-      photo.camera_from_enu = CameraFromEnu(
-          state.position_in_enu + Eigen::Vector3d(0.0, 0.0, group.camera_height_m), hold);
+      photo.camera_from_enu = CameraFromEnu(state.position_in_enu, hold);
       photo.time_gps_ns = scenario.start_gps_ns + std::llround(time_s * 1e9);
       photos.push_back(std::move(photo));
       time_s += series.every_s;

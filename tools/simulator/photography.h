@@ -39,10 +39,9 @@ struct PhotoGroup {
   Daylight day;
   std::vector<Standpoint> standpoints;
   std::vector<FrameSeries> frames;
-  double camera_height_m = 1.5;  // of frames, above the receiver's path
-  bool survey = false;           // with a table of surveyed points and their marks
-  int most_people = 0;           // in one photograph
-  double bus_share = 0.0;        // of photographs with a bus in them
+  bool survey = false;     // with a table of surveyed points and their marks
+  int most_people = 0;     // in one photograph
+  double bus_share = 0.0;  // of photographs with a bus in them
   double exposure_sigma_ev = 0.15;
   double blur_sigma_px = 0.6;
   double shake_px = 0.0;       // the longest; each photograph has its own

@@ -17,7 +17,10 @@ Eigen::Vector2d Along(double heading_rad) { return {std::sin(heading_rad), std::
 }  // namespace
 
 ReceiverPath::ReceiverPath(const Scenario& scenario)
-    : speed_mps_(scenario.speed_mps), pause_s_(scenario.pause_s), rise_m_(scenario.rise_m) {
+    : speed_mps_(scenario.speed_mps),
+      pause_s_(scenario.pause_s),
+      phone_height_m_(scenario.phone_height_m),
+      rise_m_(scenario.rise_m) {
   std::vector<Eigen::Vector2d> corners;
   for (const auto& [east_m, north_m] : scenario.waypoints_m) {
     const Eigen::Vector2d corner(east_m, north_m);
@@ -92,6 +95,7 @@ ReceiverState ReceiverPath::At(double time_s) const {
     return legs_[leg].At(time_s);
   }
   ReceiverState state;
+  state.position_in_enu.z() = phone_height_m_;
   if (pieces_.empty()) return state;
   const double moving_s = std::max(0.0, time_s - pause_s_);
   const auto [ramp_s, ramp_m, roll_s, peak_mps] = RideOf();
@@ -125,7 +129,8 @@ ReceiverState ReceiverPath::At(double time_s) const {
   }
   const Eigen::Vector2d velocity = speed_mps * Along(heading_rad);
   const double rise_phase = 2.0 * kPi * way_m / kRiseWay_m;
-  state.position_in_enu = {at.x(), at.y(), 0.5 * rise_m_ * (1.0 - std::cos(rise_phase))};
+  state.position_in_enu = {at.x(), at.y(),
+                           phone_height_m_ + 0.5 * rise_m_ * (1.0 - std::cos(rise_phase))};
   state.velocity_in_enu = {velocity.x(), velocity.y(),
                            rise_m_ * kPi / kRiseWay_m * std::sin(rise_phase) * speed_mps};
   state.heading_rad = heading_rad;

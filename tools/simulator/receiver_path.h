@@ -51,6 +51,7 @@ class ReceiverPath {
   double length_m_ = 0.0;
   double speed_mps_;
   double pause_s_;
+  double phone_height_m_;
   double rise_m_;
 };
 

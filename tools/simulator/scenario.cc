@@ -16,6 +16,9 @@ namespace {
 using nlohmann::json;
 
 // 2024-05-16 02:00:00 GPS time, ten in the morning in Wuhan.
+// Of a phone that takes photographs, above the ground.
+constexpr double kPhotographer_m = 1.5;
+
 constexpr std::int64_t kPresetStart_gps_ns = 1'399'860'000LL * kSecond_ns;
 
 Scenario Base() {
@@ -131,8 +134,11 @@ Result<Scenario> ScenarioFromJson(const std::string& file, std::string_view text
   fields.Number("pause_s", 0.0, 3600.0, &scenario.pause_s);
   fields.Number("stop_s", 0.0, 3600.0, &scenario.stop_s);
   ReadPhotoFields(&fields, &scenario.photography);
-  // The ground that photographs show is level.
-  if (!scenario.photography.groups.empty()) scenario.rise_m = 0.0;
+  if (!scenario.photography.groups.empty()) {
+    scenario.rise_m = 0.0;  // the ground that photographs show is level
+    scenario.phone_height_m = kPhotographer_m;
+  }
+  fields.Number("phone_height_m", 0.0, 50.0, &scenario.phone_height_m);
   const std::optional<Error> error = fields.Verdict();
   if (error) return *error;
   return scenario;

@@ -27,8 +27,8 @@ TEST(PlanPhotos, TakesFramesWhereThePhoneIs) {
   scenario.waypoints_m = {{0, 0}, {30, 0}, {30, 30}};
   scenario.stop_s = 10.0;
   scenario.rise_m = 0.0;
+  scenario.phone_height_m = 1.5;
   PhotoGroup group;
-  group.camera_height_m = 1.5;
   FrameSeries late{200.0, 1.0, false, {CameraHold{}}};
   FrameSeries early{1.0, 35.0, false, {CameraHold{}, CameraHold{}}};
   group.frames = {late, early};
