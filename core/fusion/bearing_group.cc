@@ -24,9 +24,10 @@ constexpr double kSurelyOff = 2.0;
 // Scale of the noise that is not noise any more.
 constexpr double kStillOff = 1.5;
 
-// Steps of the attitude at a fixed position, and the turn below which they end.
+// Steps of attitude and shift at a fixed position, and those below which they end.
 constexpr int kMostTurns = 8;
 constexpr double kNoTurn_rad = 1e-7;
+constexpr double kNoShift_m = 1e-5;
 
 // Below this the point is behind the camera or beside it.
 constexpr double kLeastForward = 0.05;
@@ -54,19 +55,18 @@ void BearingGroup::Set(std::span<const BearingObservation> bearings, const Attit
   priors_ = priors;
   options_ = options;
   camera_from_ecef_ = camera_from_ecef.normalized();
+  shift_m_.setZero();
 }
 
 // A landmark in camera axes q, seen in direction b: to first order its deviation from b, in the
 // plane that touches the unit sphere there, is q / (b . q) - b, and the whitener W removes b.
-void BearingGroup::Linearise(const Eigen::Vector3d& point_in_ecef) {
-  around_in_ecef_ = point_in_ecef;
-  enu_from_ecef_ = EnuFromEcefRotation(GeodeticFromEcef(point_in_ecef));
+void BearingGroup::Linearise(const Eigen::Vector3d& camera_in_ecef) {
   const Eigen::Matrix3d camera_from_enu =
       camera_from_ecef_.toRotationMatrix() * enu_from_ecef_.transpose();
   for (std::size_t i = 0; i < bearings_.size(); ++i) {
     const BearingObservation& bearing = bearings_[i];
     LinearBearing& linear = linear_[i];
-    const Eigen::Vector3d ray = enu_from_ecef_ * (bearing.point_in_ecef - point_in_ecef);
+    const Eigen::Vector3d ray = enu_from_ecef_ * (bearing.point_in_ecef - camera_in_ecef);
     const Eigen::Vector3d q = camera_from_enu * ray;
     const double along_m = bearing.direction_in_camera.dot(q);
     linear.seen = along_m > kLeastForward * q.norm();
@@ -154,31 +154,53 @@ void BearingGroup::AddPriors(Normals* normals) const {
 }
 
 // Schur's complement of the attitude.
-PositionStatement BearingGroup::Reduced(const Normals& normals) const {
+BearingGroup::Reduced BearingGroup::WithoutAttitude(const Normals& normals) {
   const Eigen::LLT<Eigen::Matrix3d> attitude(normals.information.bottomRightCorner<3, 3>());
   const Eigen::Matrix3d cross = normals.information.topRightCorner<3, 3>();
-  PositionStatement statement;
-  statement.around_in_ecef = around_in_ecef_;
-  statement.information_pm2 = normals.information.topLeftCorner<3, 3>() -
-                              cross * attitude.solve(Eigen::Matrix3d(cross.transpose()));
-  statement.pull_pm =
+  Reduced reduced;
+  reduced.information = normals.information.topLeftCorner<3, 3>() -
+                        cross * attitude.solve(Eigen::Matrix3d(cross.transpose()));
+  reduced.pull =
       normals.right.head<3>() - cross * attitude.solve(Eigen::Vector3d(normals.right.tail<3>()));
-  return statement.WithCommonError(options_.common_covariance_enu_m2);
+  return reduced;
 }
 
+// The bearings speak of a camera that stands off the point by the common shift s, known to be zero
+// within M. Eliminated as the attitude is: with S and g the bearings' information and pull there,
+// (I + S M)^-1 S about the point, and (I + S M)^-1 (g + S s).
+PositionStatement BearingGroup::Stated(const Reduced& reduced) const {
+  const PositionStatement at_point = {around_in_ecef_, reduced.information,
+                                      reduced.pull + reduced.information * shift_m_};
+  return at_point.WithCommonError(options_.common_covariance_enu_m2);
+}
+
+// Attitude and common shift are put where they fit the point best.
 PositionStatement BearingGroup::At(const Eigen::Vector3d& point_in_ecef) {
+  around_in_ecef_ = point_in_ecef;
+  enu_from_ecef_ = EnuFromEcefRotation(GeodeticFromEcef(point_in_ecef));
+  const Eigen::Matrix3d& common_m2 = options_.common_covariance_enu_m2;
+  Reduced reduced;
   for (int turn = 0; turn < kMostTurns; ++turn) {
-    Linearise(point_in_ecef);
+    Linearise(point_in_ecef + enu_from_ecef_.transpose() * shift_m_);
     Weigh();
     normals_ = Sum();
+    reduced = WithoutAttitude(normals_);
+    // Least of the bearings' cost and of the shift's own.
+    const Eigen::Vector3d shift_step =
+        (Eigen::Matrix3d::Identity() + common_m2 * reduced.information).inverse() *
+        (common_m2 * reduced.pull - shift_m_);
     const Eigen::LLT<Eigen::Matrix3d> attitude(normals_.information.bottomRightCorner<3, 3>());
-    const Eigen::Vector3d step = attitude.solve(Eigen::Vector3d(normals_.right.tail<3>()));
-    if (step.norm() < kNoTurn_rad) break;
+    const Eigen::Vector3d step = attitude.solve(Eigen::Vector3d(
+        normals_.right.tail<3>() - normals_.information.bottomLeftCorner<3, 3>() * shift_step));
+    if (turn + 1 == kMostTurns || (step.norm() < kNoTurn_rad && shift_step.norm() < kNoShift_m)) {
+      break;
+    }
+    shift_m_ += shift_step;
     // enu_from_camera = exp(step) * estimate, hence camera_from_ecef by the inverse on the right.
     const Eigen::Vector3d turn_in_ecef = enu_from_ecef_.transpose() * step;
     camera_from_ecef_ = (camera_from_ecef_ * Turn(-turn_in_ecef)).normalized();
   }
-  return Reduced(normals_);
+  return Stated(reduced);
 }
 
 // More than half of the bearings with their own noise, not with what all are off by.
@@ -196,7 +218,7 @@ PositionStatement BearingGroup::Without(std::size_t part) const {
     normals.information -= weight * linear.slope.transpose() * linear.slope;
     normals.right -= weight * linear.slope.transpose() * linear.residual;
   }
-  return Reduced(normals);
+  return Stated(WithoutAttitude(normals));
 }
 
 // Law of total covariance: the attitude's at a fixed position, and what the position's adds.

@@ -53,6 +53,9 @@ class BearingGroup : public PositionWitness {
   PositionStatement Without(std::size_t part) const override;
 
   const Eigen::Quaterniond& camera_from_ecef() const { return camera_from_ecef_; }
+  // What the points are displaced by in common, as far as the bearings and the last point tell:
+  // the camera sees them as if it stood there, in ECEF axes from the point.
+  Eigen::Vector3d common_shift_in_ecef_m() const { return enu_from_ecef_.transpose() * shift_m_; }
   std::span<const BearingVerdict> verdicts() const { return verdicts_; }  // at the last point
   // Of the attitude (small rotations about east, north, up), given the position's.
   Eigen::Matrix3d AttitudeCovariance(const Eigen::Matrix3d& position_covariance_enu_m2) const;
@@ -70,11 +73,18 @@ class BearingGroup : public PositionWitness {
     bool seen = false;  // in front of the camera
   };
 
-  void Linearise(const Eigen::Vector3d& point_in_ecef);
+  // Of position and pull at the camera, the attitude eliminated.
+  struct Reduced {
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d pull = Eigen::Vector3d::Zero();
+  };
+
+  void Linearise(const Eigen::Vector3d& camera_in_ecef);
   void Weigh();
   Normals Sum() const;
   void AddPriors(Normals* normals) const;
-  PositionStatement Reduced(const Normals& normals) const;
+  static Reduced WithoutAttitude(const Normals& normals);
+  PositionStatement Stated(const Reduced& reduced) const;
 
   std::vector<BearingObservation> bearings_;
   std::vector<LinearBearing> linear_;
@@ -84,6 +94,7 @@ class BearingGroup : public PositionWitness {
   BearingOptions options_;
   Eigen::Quaterniond camera_from_ecef_ = Eigen::Quaterniond::Identity();
   Eigen::Vector3d around_in_ecef_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d shift_m_ = Eigen::Vector3d::Zero();  // east, north, up
   Eigen::Matrix3d enu_from_ecef_ = Eigen::Matrix3d::Identity();
   Normals normals_;
   double scale_ = 1.0;  // of all bearings, more than 1 while the position is off

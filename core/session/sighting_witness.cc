@@ -166,7 +166,8 @@ void SightingWitness::Judge(const PhotoSighting& sighting,
   estimate->landmarks_seen = static_cast<std::int32_t>(statuses->size());
   if (estimate->photo != PhotoOutcome::kUsed) return;
 
-  const Eigen::Vector3d camera_in_ecef = estimate->position_in_ecef + moved_.in_ecef_m;
+  Eigen::Vector3d camera_in_ecef = estimate->position_in_ecef + moved_.in_ecef_m;
+  if (witness_ == &bearings_) camera_in_ecef += bearings_.common_shift_in_ecef_m();
   const Eigen::Quaterniond camera_from_ecef =
       witness_ == &bearings_ ? bearings_.camera_from_ecef()
                              : sighting.pose.camera_from_enu.rotation() *

@@ -191,6 +191,33 @@ TEST(BearingGroup, ALandmarkThatIsUncertainCountsForLess) {
   EXPECT_GT(unsure_m2, 20.0 * sure_m2);
 }
 
+// A photograph taken a moment ago, or a map that is off as a whole: the bearings fit where the
+// camera stood, whatever is believed of the point that is asked about.
+TEST(BearingGroup, ACommonErrorLeavesTheBearingsInAgreement) {
+  const RangeScene scene;
+  CameraScene camera(&scene);
+  Random random(9);
+  camera.AddWalls(12, &random);
+  BearingOptions options;
+  options.common_covariance_enu_m2 = Eigen::Vector3d(1.0, 1.0, 0.25).asDiagonal();
+  BearingGroup group;
+  group.Set(camera.bearings, {}, camera.camera_from_ecef, options);
+  const Eigen::Vector3d asked(1.5, -1.0, 0.4);
+  const PositionStatement statement = group.At(scene.Beside(asked));
+  EXPECT_TRUE(group.Agrees());
+  for (std::size_t i = 0; i < group.parts(); ++i) EXPECT_GT(group.WeightOf(i), 0.9) << i;
+  // It says the camera's place within the common error, and where that lies from the point.
+  EXPECT_LT(PlaceSaid(scene, statement).norm(), 0.3);
+  Eigen::Vector3d offset_m;
+  Eigen::Matrix3d covariance_m2;
+  statement.Moments(1e3, &offset_m, &covariance_m2);
+  EXPECT_GT(covariance_m2(0, 0), 1.0);
+  EXPECT_LT(covariance_m2(0, 0), 1.1);
+  const Eigen::Vector3d shift =
+      scene.ErrorInEnu(scene.truth_in_ecef + group.common_shift_in_ecef_m());
+  EXPECT_LT((shift + asked).norm(), 0.3);
+}
+
 TEST(BearingGroup, WithoutAPartIsTheGroupWithoutIt) {
   const RangeScene scene;
   CameraScene camera(&scene);
