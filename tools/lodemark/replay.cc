@@ -252,7 +252,7 @@ int RunReplay(const ReplayOptions& options) {
   if (!orbits.ok()) return ReportError(orbits.error());
 
   std::optional<PhotoSource> photos;
-  if (!options.request.map.empty()) {
+  if (!options.request.map.empty() && SchemeOf(options) != "gnss") {
     const Status used = session->UseMap(options.request.map);
     if (!used.ok()) return ReportError(used.error());
     if (!inputs->photos.list.empty()) {
