@@ -16,14 +16,13 @@ constexpr double kUntestable = 1e-3;
 // Metres of position a metre of a range, below which a fault is none of the position's.
 constexpr double kNoInfluence = 1e-3;
 
-// Larger sigma of the horizontal part of a covariance.
+}  // namespace
+
 double HorizontalSigma(const Eigen::Matrix3d& covariance_m2) {
   const double mean = 0.5 * (covariance_m2(0, 0) + covariance_m2(1, 1));
   const double half = 0.5 * (covariance_m2(0, 0) - covariance_m2(1, 1));
   return std::sqrt(std::max(mean + std::hypot(half, covariance_m2(0, 1)), 0.0));
 }
-
-}  // namespace
 
 ProtectionLevels SeparationLevels(const PointProblem& problem, const PointMatrix& information,
                                   std::span<const double> weights, double spread_factor,

@@ -9,6 +9,9 @@
 
 namespace lodemark {
 
+// Larger sigma of the horizontal part of a covariance in east, north, up.
+double HorizontalSigma(const Eigen::Matrix3d& covariance_m2);
+
 // 0 where none can be stated: the fault of a single range could move the position that way and no
 // other range would contradict.
 struct ProtectionLevels {

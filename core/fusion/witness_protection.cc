@@ -5,18 +5,13 @@
 #include <cmath>
 
 #include "core/adjustment/distributions.h"
+#include "core/fusion/protection.h"
 
 namespace lodemark {
 namespace {
 
 // A part without which a direction would be known worse by such a factor cannot be checked there.
 constexpr double kUnchecked = 1e3;
-
-double HorizontalSigma(const Eigen::Matrix3d& covariance_m2) {
-  const double mean = 0.5 * (covariance_m2(0, 0) + covariance_m2(1, 1));
-  const double half = 0.5 * (covariance_m2(0, 0) - covariance_m2(1, 1));
-  return std::sqrt(std::max(mean + std::hypot(half, covariance_m2(0, 1)), 0.0));
-}
 
 }  // namespace
 

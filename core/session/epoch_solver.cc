@@ -20,9 +20,6 @@ constexpr double kFarFromStart_m = 1000.0;
 constexpr double kCommonHorizontal_m = 0.5;
 constexpr double kCommonVertical_m = 1.0;
 
-// Half-width of a normal error that holds 68 % of it, in sigmas.
-constexpr double kHalfWidth68 = 0.99446;
-
 // Satellites that a position takes at least, with a height known from elsewhere or not.
 constexpr int kFewestSatellites = 4;
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/units.h"
+#include "core/fusion/protection.h"
 #include "core/session/accuracy.h"
 
 namespace lodemark {
@@ -21,8 +22,8 @@ constexpr std::int64_t kReach_ns = 3 * kSecond_ns / 2;
 constexpr std::int64_t kPriorLasts_ns = 30 * kSecond_ns;
 constexpr double kPriorSpeed_mps = 5.0;
 
-// Half-width of a normal error that holds 68 % of it, in sigmas.
-constexpr double kHalfWidth68 = 0.99446;
+// Sigmas that all but the risk of the protection levels stay within.
+constexpr double kProtectionSigmas = 4.42;
 
 }  // namespace
 
@@ -111,6 +112,13 @@ void PhotoFusion::Look(EpochSolver* solver, SessionEstimate* estimate,
     estimate->accuracy_m =
         RadiusOfProbability(estimate->covariance_enu_m2.topLeftCorner<2, 2>(), 0.68);
     estimate->vertical_accuracy_m = kHalfWidth68 * std::sqrt(estimate->covariance_enu_m2(2, 2));
+    if (estimate->protection_level_m > 0.0) {
+      estimate->protection_level_m += kProtectionSigmas * HorizontalSigma(moved.covariance_enu_m2);
+    }
+    if (estimate->vertical_protection_level_m > 0.0) {
+      estimate->vertical_protection_level_m +=
+          kProtectionSigmas * std::sqrt(moved.covariance_enu_m2(2, 2));
+    }
   }
   last_fix_ = *estimate;
 }
