@@ -10,8 +10,7 @@
 #include "test/unit/fusion/camera_scene.h"
 
 #ifdef LODEMARK_HAS_CERES
-#include <ceres/ceres.h>
-#include <ceres/rotation.h>
+#include "test/unit/fusion/ceres_misfits.h"
 #endif
 
 namespace lodemark {
@@ -52,36 +51,6 @@ void Ours(benchmark::State& run) {
 BENCHMARK(Ours)->Unit(benchmark::kMicrosecond);
 
 #ifdef LODEMARK_HAS_CERES
-struct RangeMisfit {
-  template <typename T>
-  bool operator()(const T* offset, const T* clock, T* residual) const {
-    const Eigen::Matrix<T, 3, 1> line = (range.point_in_ecef - origin).template cast<T>() -
-                                        Eigen::Map<const Eigen::Matrix<T, 3, 1>>(offset);
-    residual[0] = (range.range_m - line.norm() - clock[0]) / range.error.sigma_m;
-    return true;
-  }
-  RangeObservation range;
-  Eigen::Vector3d origin;
-};
-
-struct BearingMisfit {
-  template <typename T>
-  bool operator()(const T* offset, const T* turn, T* residual) const {
-    const Eigen::Matrix<T, 3, 1> line = (bearing.point_in_ecef - origin).template cast<T>() -
-                                        Eigen::Map<const Eigen::Matrix<T, 3, 1>>(offset);
-    const Eigen::Matrix<T, 3, 1> unturned = camera_from_ecef.template cast<T>() * line;
-    Eigen::Matrix<T, 3, 1> q;
-    ceres::AngleAxisRotatePoint(turn, unturned.data(), q.data());
-    Eigen::Map<Eigen::Matrix<T, 2, 1>> out(residual);
-    out = bearing.whitener.template cast<T>() * q /
-          bearing.direction_in_camera.template cast<T>().dot(q);
-    return true;
-  }
-  BearingObservation bearing;
-  Eigen::Vector3d origin;
-  Eigen::Matrix3d camera_from_ecef;
-};
-
 // The same unknowns and a robust loss; no covariance, protection levels or comparison of groups.
 void Ceres(benchmark::State& run) {
   const Scene scene;

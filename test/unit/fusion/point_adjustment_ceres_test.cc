@@ -11,25 +11,13 @@
 #include "core/fusion/point_adjustment.h"
 #include "core/fusion/range_error.h"
 #include "test/unit/fusion/adjusted.h"
+#include "test/unit/fusion/ceres_misfits.h"
 
 namespace lodemark {
 namespace {
 
 // Unknowns in metres from a place near by, so that they are of one size: position, clocks.
 constexpr int kPosition = 3;
-
-// Whitened misfit of one range.
-struct RangeMisfit {
-  template <typename T>
-  bool operator()(const T* offset, const T* clock, T* residual) const {
-    const Eigen::Matrix<T, 3, 1> line = (range.point_in_ecef - origin).template cast<T>() -
-                                        Eigen::Map<const Eigen::Matrix<T, 3, 1>>(offset);
-    residual[0] = (range.range_m - line.norm() - clock[0]) / range.error.sigma_m;
-    return true;
-  }
-  RangeObservation range;
-  Eigen::Vector3d origin;
-};
 
 struct LandmarkMisfit {
   template <typename T>
