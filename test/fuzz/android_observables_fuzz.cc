@@ -2,43 +2,19 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <cstring>
 #include <vector>
 
 #include "core/base/units.h"
 #include "core/gnss/android_observables.h"
 #include "core/gnss/millisecond_jump.h"
+#include "test/fuzz/bytes.h"
 
 namespace {
 
 using namespace lodemark;
 
-void Require(bool condition) {
-  if (!condition) std::abort();
-}
-
-// Reads values off the input; zeros once it is used up.
-class Bytes {
- public:
-  Bytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
-
-  bool empty() const { return size_ == 0; }
-
-  template <typename T>
-  T Take() {
-    T value = {};
-    const std::size_t taken = sizeof(T) < size_ ? sizeof(T) : size_;
-    std::memcpy(&value, data_, taken);
-    data_ += taken;
-    size_ -= taken;
-    return value;
-  }
-
- private:
-  const std::uint8_t* data_;
-  std::size_t size_;
-};
+using test::Bytes;
+using test::Require;
 
 // Any field of any value.
 AndroidMeasurement AnyMeasurement(Bytes* bytes) {

@@ -19,6 +19,7 @@
 namespace {
 
 using lodemark::test::Bytes;
+using lodemark::test::Disturb;
 using lodemark::test::kOrigin_geodetic;
 using lodemark::test::PhotoScene;
 using lodemark::test::Require;
@@ -105,7 +106,7 @@ class Sequence {
     for (int i = 0; i < kCounts[lens_.model]; ++i) {
       lens_.coefficients[i] = bytes_.Take<std::int8_t>() / 256.0;
     }
-    bytes_.Disturb(&lens_);
+    Disturb(&bytes_, &lens_);
     photo_.clear();
     for (std::int64_t i = 0; IsSmall(lens_) && i < std::int64_t{lens_.width_px} * lens_.height_px;
          ++i) {
@@ -197,7 +198,7 @@ class Sequence {
     wanted.width_px = 1 + bytes_.Take<std::uint8_t>();
     wanted.height_px = 1 + bytes_.Take<std::uint8_t>() / 2;
     wanted.fx_px = wanted.fy_px = 100.0;
-    bytes_.Disturb(&wanted);
+    Disturb(&bytes_, &wanted);
     const bool is_wanted = bytes_.Take<std::uint8_t>() % 2 == 0;
     if (is_wanted && !IsSmall(wanted)) return;
     target_ = Sized<lodemark_lens>();
@@ -240,7 +241,7 @@ class Sequence {
 
   void CheckMap() {
     auto map = Sized<lodemark_map_info>();
-    bytes_.Disturb(&map);
+    Disturb(&bytes_, &map);
     const lodemark_status status = Seen(lodemark_map_read_info(map_, &map));
     if (status != LODEMARK_OK) return;
     Require(map_ != nullptr && map.landmarks > 0 && map.descriptor_kind == 1);
@@ -260,14 +261,14 @@ class Sequence {
     prior.heading_deg = bytes_.Take<std::int8_t>();
     prior.heading_sigma_deg = 1.0 + bytes_.Take<std::uint8_t>();
     prior.camera_from_enu[0] = prior.camera_from_enu[1] = 0.7071067811865476;
-    bytes_.Disturb(&prior);
+    Disturb(&bytes_, &prior);
     return prior;
   }
 
   lodemark_resect_options TakeOptions() {
     auto options = Sized<lodemark_resect_options>();
     options.seed = bytes_.Take<std::uint8_t>();
-    bytes_.Disturb(&options);
+    Disturb(&bytes_, &options);
     if (options.most_samples <= 0 || options.most_samples > 200) options.most_samples = 200;
     return options;
   }
@@ -305,7 +306,7 @@ class Sequence {
     const bool has_prior = bytes_.Take<std::uint8_t>() % 2 == 0;
     auto query = Sized<lodemark_query_options>();
     query.most_features = 1 + bytes_.Take<std::uint8_t>();
-    bytes_.Disturb(&query);
+    Disturb(&bytes_, &query);
     std::vector<lodemark_sight> sights(bytes_.Take<std::uint8_t>() % 64u);
     std::vector<lodemark_sight_residual> residuals(sights.size());
     if (!sights.empty()) {
@@ -355,7 +356,7 @@ class Sequence {
       if (!(std::abs(sight.pixel_px[1]) < 1e6)) sight.pixel_px[1] = 0.0;
     }
     for (std::size_t i = 0; i < std::min<std::size_t>(sights.size(), 3); ++i) {
-      bytes_.Disturb(&sights[i]);
+      Disturb(&bytes_, &sights[i]);
     }
     const lodemark_view_prior prior = TakePrior();
     const bool has_prior = bytes_.Take<std::uint8_t>() % 2 == 0;

@@ -17,6 +17,7 @@ namespace {
 
 using lodemark::test::Bytes;
 using lodemark::test::Constellation;
+using lodemark::test::Disturb;
 using lodemark::test::Require;
 using lodemark::test::Seen;
 using lodemark::test::Sized;
@@ -82,7 +83,7 @@ class Sequence {
     lodemark_session_close(session_);
     auto options = Sized<lodemark_session_options>();
     options.queue_capacity = 4;
-    bytes_.Disturb(&options);
+    Disturb(&bytes_, &options);
     if (options.queue_capacity > 64) options.queue_capacity = 64;  // memory is not the question
     const lodemark_status status = Seen(lodemark_session_open(&options, &session_));
     Require((session_ != nullptr) == (status == LODEMARK_OK));
@@ -111,10 +112,10 @@ class Sequence {
   void PushGnss() {
     phone_.Measure(time_gps_ns_);
     lodemark_gnss_clock clock = phone_.clock;
-    bytes_.Disturb(&clock);
+    Disturb(&bytes_, &clock);
     const int disturbed = bytes_.Take<std::uint8_t>() % 8;
     for (int i = 0; i < disturbed && i < phone_.count(); ++i) {
-      bytes_.Disturb(&phone_.measurements[static_cast<std::size_t>(i)]);
+      Disturb(&bytes_, &phone_.measurements[static_cast<std::size_t>(i)]);
     }
     Seen(lodemark_session_push_gnss(session_, bytes_.Take<std::int32_t>(), &clock,
                                     phone_.measurements.data(), phone_.count()));
@@ -124,7 +125,7 @@ class Sequence {
     phone_.Measure(time_gps_ns_);
     auto epoch = Sized<lodemark_observation_epoch>();
     epoch.time_gps_ns = time_gps_ns_;
-    bytes_.Disturb(&epoch);
+    Disturb(&bytes_, &epoch);
     std::vector<lodemark_observation> observations;
     for (std::size_t i = 0; i < phone_.measurements.size(); ++i) {
       auto observation = Sized<lodemark_observation>();
@@ -136,7 +137,7 @@ class Sequence {
     }
     const std::size_t disturbed = bytes_.Take<std::uint8_t>() % 8u;
     for (std::size_t i = 0; i < disturbed && i < observations.size(); ++i) {
-      bytes_.Disturb(&observations[i]);
+      Disturb(&bytes_, &observations[i]);
     }
     Seen(lodemark_session_push_observations(session_, bytes_.Take<std::int64_t>(), &epoch,
                                             observations.data(),
@@ -150,7 +151,7 @@ class Sequence {
     message.svid = bytes_.Take<std::uint8_t>() % 40;
     message.message_id = bytes_.Take<std::int8_t>();
     message.submessage_id = bytes_.Take<std::int8_t>();
-    bytes_.Disturb(&message);
+    Disturb(&bytes_, &message);
     const std::string text = bytes_.TakeText(bytes_.Take<std::uint8_t>() % 64u);
     Seen(lodemark_session_push_broadcast(
         session_, &message, reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
@@ -220,7 +221,7 @@ class Sequence {
       range.range_m = std::hypot(enu_m[0], enu_m[1], enu_m[2]) + bytes_.Take<std::int8_t>();
       range.sigma_m = 1.0 + bytes_.Take<std::uint8_t>();
     }
-    if (!ranges.empty()) bytes_.Disturb(&ranges[0]);
+    if (!ranges.empty()) Disturb(&bytes_, &ranges[0]);
     auto options = Sized<lodemark_solve_options>();
     lodemark_ecef_from_geodetic(kPlace, options.start_in_ecef_m);
     options.present = bytes_.Take<std::uint8_t>() % 2 == 0 ? LODEMARK_SOLVE_HAS_START : 0;
