@@ -16,6 +16,7 @@ struct ReportOptions {
   std::vector<std::string> runs;
   std::string out;
   std::string truth;
+  std::string recording;
 };
 
 int RunReport(const ReportOptions& options) {
@@ -26,7 +27,8 @@ int RunReport(const ReportOptions& options) {
     truth = std::move(read).value();
   }
   ProgressBar progress("Reading", StderrIsTerminal());
-  const Result<ReportContent> content = GatherReport(options.runs, truth, &progress);
+  const Result<ReportContent> content =
+      GatherReport(options.runs, truth, options.recording, &progress);
   progress.Finish();
   if (!content) return ReportError(content.error());
   const std::string html = ReportHtml(content->report);
@@ -51,6 +53,8 @@ void AddReportCommand(CLI::App& app, int* exit_code) {
   command->add_option("--out", options->out, "The page to write")->required();
   command->add_option("--truth", options->truth,
                       "truth.csv, one static point, or a recording folder that has one");
+  command->add_option("--recording", options->recording,
+                      "Where the photographs are, if the recording was moved since");
   command->callback([options, exit_code] { *exit_code = RunReport(*options); });
 }
 

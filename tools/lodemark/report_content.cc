@@ -9,6 +9,8 @@
 #include "tools/lodemark/command.h"
 #include "tools/lodemark/compare_table.h"
 #include "tools/lodemark/progress_bar.h"
+#include "tools/lodemark/report_landmarks.h"
+#include "tools/lodemark/report_scene.h"
 #include "tools/lodemark/report_signals.h"
 #include "tools/lodemark/run_errors.h"
 #include "tools/lodemark/run_folder.h"
@@ -196,6 +198,44 @@ Status GatherEvents(const RunFolder& run, std::int64_t start_ns, ReportRun* draw
   return {};
 }
 
+// What a damaged landmarks.csv lacks is missing on the page; the rest is there.
+RunLandmarks GatherLandmarks(const RunFolder& run, const std::vector<ListedPhoto>& photos,
+                             std::vector<std::string>* remarks) {
+  std::vector<std::int64_t> times_gps_ns;
+  for (const ListedPhoto& photo : photos) times_gps_ns.push_back(photo.time_gps_ns);
+  RunLandmarks landmarks(std::move(times_gps_ns));
+  ReadReport report;
+  const Status read =
+      ReadRunLandmarks(run.path, [&](const RunLandmark& row) { landmarks.Add(row); }, &report);
+  landmarks.Finish();
+  if (!read.ok()) {
+    remarks->push_back(read.error().message + " (landmarks left out)");
+  } else if (report.rows_skipped > 0) {
+    remarks->push_back(FormatProblem(report.file, report.problems.front()) + " (" +
+                       GroupDigits(report.rows_skipped) + " such rows skipped)");
+  }
+  return landmarks;
+}
+
+// Landmarks, photographs and buildings, into the report whose runs are there.
+void GatherScene(const std::vector<RunFolder>& runs, const std::string& recording,
+                 const EnuFrame& frame, std::int64_t start_ns, std::int64_t end_ns,
+                 ReportContent* content) {
+  std::vector<std::string> paths;
+  for (const RunFolder& run : runs) paths.push_back(run.path);
+  std::vector<std::string>* remarks = &content->remarks;
+  const SceneFiles files = SceneFilesOf(paths, recording, remarks);
+  const std::vector<ListedPhoto> photos = PhotosToDraw(files.photo_list, start_ns, end_ns, remarks);
+  std::vector<RunLandmarks> landmarks;
+  for (const RunFolder& run : runs) landmarks.push_back(GatherLandmarks(run, photos, remarks));
+  Report& report = content->report;
+  ReportLandmarks joined;
+  for (const RunLandmarks& run : landmarks) joined.Add(run);
+  joined.Finish(frame, &report.scene, &report.runs);
+  report.scene.photos = DrawnPhotos(photos, start_ns, remarks);
+  report.scene.buildings = BuildingsNear(files.map, frame, report.runs, remarks);
+}
+
 // Results where no truth is known: what the runs say about themselves.
 TextTable UncheckedTable(const std::vector<RunFolder>& runs,
                          const std::vector<std::string>& names) {
@@ -227,13 +267,15 @@ TextTable UncheckedTable(const std::vector<RunFolder>& runs,
 
 void AddFigures(const std::vector<ComparedRun>& compared, Report* report) {
   const bool several = compared.size() > 1;
-  for (const ComparedRun& run : compared) {
+  for (std::size_t place = 0; place < compared.size(); ++place) {
+    const ComparedRun& run = compared[place];
     const ErrorStatistics& s = run.statistics;
     if (s.horizontal_m.count > 0) {
       report->figures.push_back(
           {several ? run.name : "68 % of errors below", MetresText(s.horizontal_m.p68), "m",
-           several ? "68 % of errors below; 95 % below " + MetresText(s.horizontal_m.p95) + " m"
-                   : "horizontal"});
+           several ? "for 68 % of epochs, " + MetresText(s.horizontal_m.p95) + " m for 95 %"
+                   : "horizontal",
+           several ? std::optional<std::size_t>(place) : std::nullopt});
       if (!several) {
         report->figures.push_back(
             {"95 % of errors below", MetresText(s.horizontal_m.p95), "m", "horizontal"});
@@ -245,8 +287,10 @@ void AddFigures(const std::vector<ComparedRun>& compared, Report* report) {
          GroupDigits(s.answered_epochs) + " of " + GroupDigits(s.expected_epochs) + " epochs"});
     if (s.within_accuracy.of > 0) {
       report->figures.push_back({"Within stated accuracy",
-                                 Format("%.0f", 100.0 * s.within_accuracy.value()), "%",
-                                 "68 % is honest"});
+                                 Format("%.0f", 100.0 * s.within_accuracy.value()),
+                                 "%",
+                                 "68 % is honest",
+                                 {}});
     }
   }
 }
@@ -254,7 +298,8 @@ void AddFigures(const std::vector<ComparedRun>& compared, Report* report) {
 }  // namespace
 
 Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
-                                   const std::optional<Truth>& truth, ProgressBar* progress) {
+                                   const std::optional<Truth>& truth, const std::string& recording,
+                                   ProgressBar* progress) {
   std::vector<RunFolder> runs;
   for (const std::string& path : run_paths) {
     Result<RunFolder> run = ReadRunFolder(path);
@@ -306,6 +351,8 @@ Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
     progress->Update(static_cast<double>(i + 1) / static_cast<double>(runs.size()));
   }
 
+  GatherScene(runs, recording, frame, start_ns, end_ns, &content);
+
   const TextTable table = truth ? CompareTable(compared) : UncheckedTable(runs, names);
   for (const TextTable::Row& row : table.rows()) {
     report.table.push_back({row.section, row.label, row.values, row.unit});
@@ -318,8 +365,11 @@ Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
       for (const TextTable::Row& row : table.rows()) {
         if (row.label != label || row.values.front().empty()) continue;
         const bool coverage = row.label == "coverage";
-        report.figures.push_back({coverage ? "Coverage" : "Stated accuracy", row.values.front(),
-                                  row.unit, coverage ? "" : "median, no truth to check it"});
+        report.figures.push_back({coverage ? "Coverage" : "Stated accuracy",
+                                  row.values.front(),
+                                  row.unit,
+                                  coverage ? "" : "median, no truth to check it",
+                                  {}});
       }
     }
   }

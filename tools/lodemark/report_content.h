@@ -19,7 +19,10 @@ struct ReportContent {
   bool any_estimate = false;
 };
 
+// recording: where to look for photographs that no longer lie where the runs found them; may be
+// empty.
 Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
-                                   const std::optional<Truth>& truth, ProgressBar* progress);
+                                   const std::optional<Truth>& truth, const std::string& recording,
+                                   ProgressBar* progress);
 
 }  // namespace lodemark

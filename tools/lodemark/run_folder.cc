@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "tools/lodemark/command.h"
 #include "tools/lodemark/csv_table.h"
 
 namespace lodemark {
@@ -12,6 +13,8 @@ namespace fs = std::filesystem;
 
 // Beyond year 2106; bounds keep differences of times from overflowing.
 constexpr std::int64_t kLatestTime_ns = 4'000'000'000'000'000'000;
+
+constexpr std::size_t kLargestRunJson_bytes = 16u * 1024 * 1024;
 
 bool IsTime(std::int64_t time_gps_ns) { return time_gps_ns >= 0 && time_gps_ns < kLatestTime_ns; }
 
@@ -132,6 +135,82 @@ Status ReadRunSignals(const std::string& folder, const std::function<void(const 
   }
   *report = table->report();
   return table->status();
+}
+
+Status ReadRunLandmarks(const std::string& folder,
+                        const std::function<void(const RunLandmark&)>& sink, ReadReport* report) {
+  const std::string path = (fs::path(folder) / "landmarks.csv").string();
+  report->file = path;
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return {};
+  Result<CsvTable> table =
+      CsvTable::Open(path, {"time_gps_ns", "landmark_id", "used", "x_px", "y_px"});
+  if (!table) return table.error();
+  const int time = table->Column("time_gps_ns");
+  const int id = table->Column("landmark_id");
+  const int used = table->Column("used");
+  const int reason = table->Column("reason");
+  const int x = table->Column("x_px");
+  const int y = table->Column("y_px");
+  const int residual_x = table->Column("residual_x_px");
+  const int residual_y = table->Column("residual_y_px");
+  const int latitude = table->Column("latitude_deg");
+  const int longitude = table->Column("longitude_deg");
+  const int height = table->Column("height_m");
+  RunLandmark row;
+  while (table->Next()) {
+    const std::optional<std::int64_t> time_ns = table->Integer(time);
+    const std::optional<std::int64_t> landmark = table->Integer(id);
+    const std::optional<double> x_px = table->Number(x);
+    const std::optional<double> y_px = table->Number(y);
+    if (!time_ns || !IsTime(*time_ns)) {
+      table->Skip(time, "time_gps_ns is no time in nanoseconds");
+    } else if (!landmark || *landmark < 0) {
+      table->Skip(id, "landmark_id is no number of a landmark");
+    } else if (!x_px || !y_px) {
+      table->Skip(x_px ? y : x, "is no place in a photograph");
+    } else {
+      row.time_gps_ns = *time_ns;
+      row.landmark_id = *landmark;
+      row.used = table->Text(used) == "1";
+      row.reason = table->Text(reason);
+      row.x_px = *x_px;
+      row.y_px = *y_px;
+      row.residual_x_px = table->Number(residual_x);
+      row.residual_y_px = table->Number(residual_y);
+      row.latitude_deg = table->Number(latitude);
+      row.longitude_deg = table->Number(longitude);
+      row.height_m = table->Number(height);
+      sink(row);
+    }
+  }
+  *report = table->report();
+  return table->status();
+}
+
+Result<std::vector<RunInput>> ReadRunInputs(const std::string& folder) {
+  const std::string path = (fs::path(folder) / "run.json").string();
+  std::vector<RunInput> inputs;
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return inputs;
+  const Result<std::string> text = ReadFileWhole(path, kLargestRunJson_bytes);
+  if (!text) return text.error();
+  const nlohmann::json object = nlohmann::json::parse(*text, nullptr, false);
+  if (!object.is_object()) {
+    return Error{ErrorCode::kBadData, path + ": is not JSON; run 'lodemark replay' again"};
+  }
+  const auto list = object.find("inputs");
+  if (list == object.end() || !list->is_array()) return inputs;
+  for (const nlohmann::json& input : *list) {
+    if (!input.is_object()) continue;
+    const auto role = input.find("role");
+    const auto file = input.find("file");
+    if (role == input.end() || file == input.end() || !role->is_string() || !file->is_string()) {
+      continue;
+    }
+    inputs.push_back({role->get<std::string>(), file->get<std::string>()});
+  }
+  return inputs;
 }
 
 }  // namespace lodemark

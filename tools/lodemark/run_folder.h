@@ -34,6 +34,27 @@ struct RunSignal {
   std::optional<double> cn0_dbhz;
 };
 
+// One row of landmarks.csv; the text is valid until the next row.
+struct RunLandmark {
+  std::int64_t time_gps_ns = 0;
+  std::int64_t landmark_id = 0;
+  bool used = false;
+  std::string_view reason;
+  double x_px = 0.0;
+  double y_px = 0.0;
+  std::optional<double> residual_x_px;
+  std::optional<double> residual_y_px;
+  std::optional<double> latitude_deg;
+  std::optional<double> longitude_deg;
+  std::optional<double> height_m;
+};
+
+// What run.json says the run was made of.
+struct RunInput {
+  std::string role;
+  std::string file;
+};
+
 struct RunFolder {
   std::string path;
   std::string name;                     // the folder's own
@@ -53,5 +74,13 @@ Result<std::vector<RunEvent>> ReadRunEvents(const std::string& folder, ReadRepor
 // Calls sink for every row of satellites.csv; nothing happens if the run has no such file.
 Status ReadRunSignals(const std::string& folder, const std::function<void(const RunSignal&)>& sink,
                       ReadReport* report);
+
+// The same for landmarks.csv. Malformed rows are counted and skipped; a file without the columns
+// is an error.
+Status ReadRunLandmarks(const std::string& folder,
+                        const std::function<void(const RunLandmark&)>& sink, ReadReport* report);
+
+// The inputs that run.json lists; none if there is no such file.
+Result<std::vector<RunInput>> ReadRunInputs(const std::string& folder);
 
 }  // namespace lodemark

@@ -39,7 +39,11 @@ std::string TablesHtml(const Report& report) {
 std::string FiguresHtml(const Report& report) {
   std::string html = "<dl class=\"figures\">";
   for (const ReportFigure& figure : report.figures) {
-    html += "<div><dt>" + EscapeHtml(figure.label) + "</dt><dd>" + EscapeHtml(figure.value);
+    // As many colours as the page's script has.
+    html += figure.run ? "<div class=\"of-run\" style=\"--run:var(--run" +
+                             std::to_string(*figure.run % 5) + ")\">"
+                       : "<div>";
+    html += "<dt>" + EscapeHtml(figure.label) + "</dt><dd>" + EscapeHtml(figure.value);
     if (!figure.unit.empty())
       html += " <span class=\"unit\">" + EscapeHtml(figure.unit) + "</span>";
     html += "</dd>";
@@ -85,7 +89,8 @@ std::string ReportHtml(const Report& report) {
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-      "style-src 'unsafe-inline'; script-src 'unsafe-inline'; base-uri 'none'; form-action "
+      "style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:; base-uri 'none'; "
+      "form-action "
       "'none'\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<title>";

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/report/scene.h"
+
 namespace lodemark {
 
 // Coordinates are metres east, north and up of the report's origin; times are seconds since its
@@ -39,11 +41,8 @@ struct ReportEpoch {
   std::string status;  // "fix", or why there is no answer
 };
 
-// What became of a signal in most epochs of one slice of time.
-enum class ReportSignalState : std::uint8_t { kAbsent, kUnusable, kUsed, kDownWeighted, kRejected };
-inline constexpr std::size_t kReportSignalStates = 5;
-
-// One signal of one satellite. The slices divide the run's span evenly.
+// One signal of one satellite. The slices divide the run's span evenly; a state is that of most of
+// their epochs.
 struct ReportSignal {
   std::string satellite;  // "G07"
   std::string signal;     // "1C"
@@ -74,6 +73,8 @@ struct ReportRun {
   std::vector<ReportSignal> signals;
   std::vector<ReportEvent> events;
   std::int64_t event_count = 0;
+  std::vector<ReportSignalState> landmarks;  // one for each of the scene's, or none
+  std::vector<ReportSights> sights;
 };
 
 struct ReportTableRow {
@@ -88,6 +89,7 @@ struct ReportFigure {
   std::string value;
   std::string unit;
   std::string note;
+  std::optional<std::size_t> run = {};  // whose it is, where there are several
 };
 
 struct Report {
@@ -97,6 +99,7 @@ struct Report {
   std::vector<ReportFigure> figures;  // the few numbers a reader wants first
   std::vector<ReportTableRow> table;
   std::vector<ReportRun> runs;
+  ReportScene scene;
   std::vector<ReportTruthPoint> truth;  // empty: none known; one: a place at rest
   std::string start;                    // date and time of time_s = 0, for the reader
 };

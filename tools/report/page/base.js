@@ -11,15 +11,19 @@ data.runs.forEach((run, index) => {
   for (const name of ['e', 'n', 'u', 'acc', 'vacc', 'ee', 'en', 'eu', 'cdf']) run[name] = column(run[name], 1e-2);
   run.used = column(run.used, 1);
   run.span *= 1e-3;
+  for (const of of run.sights) for (const name of ['rx', 'ry']) of[name] = column(of[name], 1e-2);
   run.hasErrors = run.ee.some(Number.isFinite);
   run.steps = medianStep(run.t);
 });
+for (const place of [data.scene.landmarks, ...data.scene.buildings]) for (const name of ['e', 'n']) place[name] = column(place[name], 1e-2);
+for (const photo of data.scene.photos) photo.t = photo.t === null ? NaN : photo.t * 1e-3;
 const hasErrors = data.runs.some(run => run.hasErrors);
 const span = Math.max(1e-3, ...data.runs.map(run => run.span));
 
 // Signals are sorted by system and number already.
 const systemColors = {G: 'var(--run0)', R: 'var(--run1)', E: 'var(--run2)', C: 'var(--run3)', J: 'var(--run4)', I: 'var(--soft)', S: 'var(--soft)'};
 const systemNames = {G: 'GPS', R: 'GLONASS', E: 'Galileo', C: 'BeiDou', J: 'QZSS', I: 'NavIC', S: 'SBAS'};
+// States of signals and of landmarks.
 const stateNames = {u: 'used', d: 'down-weighted', r: 'rejected', x: 'not usable', '-': 'not received'};
 const stateColors = {u: 'var(--used)', d: 'var(--down)', r: 'var(--rejected)', x: 'var(--unusable)'};
 
@@ -82,15 +86,34 @@ function quantile(values, share) {
   const sorted = values.filter(Number.isFinite).sort((a, b) => a - b);
   return sorted.length ? sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] : NaN;
 }
-// Path through points; a NaN lifts the pen.
+// Path through points; a NaN lifts the pen, and a point alone becomes a dot where line ends are round.
 function path(xs, ys) {
-  let d = '', down = false;
+  let d = '', down = 0;
   for (let i = 0; i < xs.length; ++i) {
-    if (!Number.isFinite(xs[i]) || !Number.isFinite(ys[i])) { down = false; continue; }
+    if (!Number.isFinite(xs[i]) || !Number.isFinite(ys[i])) { if (down === 1) d += 'h0'; down = 0; continue; }
     d += `${down ? 'L' : 'M'}${xs[i].toFixed(1)} ${ys[i].toFixed(1)}`;
-    down = true;
+    ++down;
   }
-  return d;
+  return down === 1 ? d + 'h0' : d;
+}
+
+// States have shapes as well as colours: a dot was used, a triangle counted less, a cross was rejected, a
+// ring could not be used.
+const markPaths = {
+  u: (x, y, r) => `M${x - r} ${y}a${r} ${r} 0 1 0 ${2 * r} 0a${r} ${r} 0 1 0 ${-2 * r} 0Z`,
+  d: (x, y, r) => `M${x} ${y - 1.3 * r}l${1.25 * r} ${2.2 * r}h${-2.5 * r}Z`,
+  r: (x, y, r) => `M${x - r} ${y - r}l${2 * r} ${2 * r}m0 ${-2 * r}l${-2 * r} ${2 * r}`,
+  x: (x, y, r) => `M${x - r} ${y}a${r} ${r} 0 1 0 ${2 * r} 0a${r} ${r} 0 1 0 ${-2 * r} 0Z`,
+};
+const tenths = value => Math.round(value * 10) / 10;
+// One path for all points [x, y] of a state.
+function marks(state, points, r, color = stateColors[state], attributes = {}) {
+  const d = points.map(([x, y]) => markPaths[state](tenths(x), tenths(y), r)).join('');
+  const filled = state === 'u' || state === 'd';
+  return svg('path', {d, fill: filled ? color : 'none', stroke: filled ? 'none' : color, 'stroke-width': Math.max(1, r * 0.55), ...attributes});
+}
+function markKey(label, state, color = stateColors[state]) {
+  return element('span', {class: 'key'}, svg('svg', {class: 'mark', viewBox: '0 0 14 14', 'aria-hidden': 'true'}, marks(state, [[7, 7]], 4, color)), label);
 }
 
 // The instant the reader looks at, shared by all drawings.
@@ -158,4 +181,19 @@ function runButtons() {
     }}, mark);
     return button;
   });
+}
+
+// The run whose photographs, satellites and events are shown: the last that saw landmarks.
+let chosenRun = [...data.runs].reverse().find(run => run.sights.length) || data.runs[0];
+const chosen = () => chosenRun;
+// A list to choose it from, where there is more than one.
+function chosenSelect(label, runs = data.runs) {
+  if (runs.length < 2) return [];
+  const select = element('select', {class: 'chosen', onchange: event => {
+    chosenRun = data.runs[event.target.value];
+    document.querySelectorAll('select.chosen').forEach(other => { if ([...other.options].some(o => o.value === event.target.value)) other.value = event.target.value; });
+    redrawAll();
+  }}, runs.map(run => element('option', {value: run.index}, run.name)));
+  if (runs.includes(chosenRun)) select.value = chosenRun.index;
+  return [element('label', {}, `${label} `, select)];
 }

@@ -1,17 +1,11 @@
 // Puts the page together.
-let chosenRun = data.runs[0];
-const chosen = () => chosenRun;
-
 if (chosenRun) {
   drawMap();
   if (hasErrors) drawDistribution(); else document.querySelector('.map').classList.add('alone');
+  drawPhotos();
   drawErrors();
   if (data.runs.some(run => run.signals.length)) {
-    if (data.runs.length > 1) {
-      const select = element('select', {id: 'chosen', onchange: event => { chosenRun = data.runs[event.target.value]; redrawAll(); }},
-        data.runs.map(run => element('option', {value: run.index}, run.name)));
-      document.getElementById('charts').append(element('section', {class: 'card'}, element('label', {for: 'chosen'}, 'Satellites and events of '), select));
-    }
+    if (data.runs.length > 1) document.getElementById('charts').append(element('section', {class: 'card'}, chosenSelect('Satellites and events of')));
     drawSky(chosen);
     drawStrength(chosen);
     drawTimeline(chosen);

@@ -1,25 +1,25 @@
 // The map: tracks, truth and accuracy in local metres, with zoom and pan.
 function drawMap() {
   const section = card('map', 'Map', 'East and north in metres. Drag to move, wheel or + and − to zoom, 0 to see all.', 'top');
-  const bar = element('div', {class: 'bar'}, runButtons());
-  if (data.truth.e.length) bar.append(key('truth', 'var(--truth)', data.truth.e.length > 1 ? 'thin' : 'ring'));
+  const bar = element('div', {class: 'bar'}, runButtons(), layerButtons(() => draw()));
+  const legend = element('div', {class: 'bar legend'}, data.truth.e.length ? key('truth', 'var(--truth)', data.truth.e.length > 1 ? 'thin' : 'ring') : [], data.runs.some(run => run.ell.some(Boolean)) ? key('68 % ellipse', 'var(--soft)', 'ring') : [], landmarkKeys());
   const zoomButton = (label, title, action) => element('button', {type: 'button', 'aria-label': title, title, onclick: action}, label);
-  bar.append(element('span', {class: 'push'}, zoomButton('+', 'Zoom in', () => zoom(1.5)), zoomButton('−', 'Zoom out', () => zoom(1 / 1.5)), zoomButton('All', 'Show everything', () => { fit(); draw(); })));
+  bar.append(element('span', {class: 'push'}, zoomButton('+', 'Zoom in', () => zoom(1.5)), zoomButton('−', 'Zoom out', () => zoom(1 / 1.5)), hasLandmarks ? zoomButton('Track', 'Show the track', () => { fit(false); draw(); }) : '', zoomButton('All', 'Show everything', () => { fit(); draw(); })));
   const holder = element('div');
   const readout = element('p', {class: 'readout', 'aria-live': 'polite'});
-  section.append(bar, holder, readout);
+  section.append(bar, holder, legend, readout);
 
   let width = 0, height = 0, scale = 1, centre = [0, 0], fitted = false;
   const x = e => width / 2 + (e - centre[0]) * scale;
   const y = n => height / 2 - (n - centre[1]) * scale;
-  const root = svg('svg', {tabindex: 0, role: 'img', 'aria-label': mapSummary()});
+  const root = svg('svg', {class: 'plan', tabindex: 0, role: 'img', 'aria-label': mapSummary()});
   holder.append(root);
 
-  function fit() {
+  function fit(withLandmarks = hasLandmarks) {
     // The middle 99 % of the estimates and all of the truth: one wild estimate must not shrink the rest.
-    const es = data.truth.e.slice(), ns = data.truth.n.slice();
-    for (const run of data.runs) {
-      for (const [values, out] of [[run.e, es], [run.n, ns]]) {
+    const es = data.truth.e.filter(Number.isFinite), ns = data.truth.n.filter(Number.isFinite);
+    for (const places of [...data.runs, withLandmarks ? data.scene.landmarks : {e: [], n: []}]) {
+      for (const [values, out] of [[places.e, es], [places.n, ns]]) {
         const low = quantile(values, 0.005), high = quantile(values, 0.995);
         if (Number.isFinite(low)) out.push(low, high);
       }
@@ -80,7 +80,7 @@ function drawMap() {
       const shape = accuracyShape(run, inside[k], 0.05);
       if (shape) group.append(shape);
     }
-    group.append(svg('path', {d: path(xs, ys), fill: 'none', stroke: run.color, 'stroke-width': 1.2, 'stroke-opacity': 0.55, 'stroke-linejoin': 'round'}));
+    group.append(svg('path', {d: path(xs, ys), fill: 'none', stroke: run.color, 'stroke-width': 1.2, 'stroke-opacity': 0.55, 'stroke-linecap': 'round', 'stroke-linejoin': 'round'}));
     // One path for all dots: zero-length strokes with round ends.
     let dots = '';
     for (const i of inside) dots += `M${xs[i].toFixed(1)} ${ys[i].toFixed(1)}h0`;
@@ -98,18 +98,19 @@ function drawMap() {
     return svg('path', {d: path(e.map(x), n.map(y)), fill: 'none', stroke: 'var(--truth)', 'stroke-opacity': 0.45, 'stroke-width': 5, 'stroke-linejoin': 'round', 'stroke-linecap': 'round'});
   }
 
-  const marks = svg('g');
+  const spot = svg('g');
   function drawMarks(time) {
-    marks.replaceChildren();
+    spot.replaceChildren();
     if (time === null || !width) { readout.textContent = ''; return; }
+    spot.append(drawSightLines(time, x, y));
     const lines = [];
     for (const run of data.runs) {
       if (!run.visible || !run.t.length) continue;
       const i = nearestEpoch(run, time);
       if (Number.isFinite(run.e[i])) {
         const shape = accuracyShape(run, i, 0.18);
-        if (shape) marks.append(shape);
-        marks.append(svg('circle', {cx: x(run.e[i]), cy: y(run.n[i]), r: 6, fill: run.color, stroke: 'var(--card)', 'stroke-width': 2}));
+        if (shape) spot.append(shape);
+        spot.append(svg('circle', {cx: x(run.e[i]), cy: y(run.n[i]), r: 6, fill: run.color, stroke: 'var(--card)', 'stroke-width': 2}));
       }
       lines.push(describeEpoch(run, i));
     }
@@ -122,7 +123,7 @@ function drawMap() {
     root.setAttribute('viewBox', `0 0 ${width} ${height}`);
     root.setAttribute('height', height);
     const still = data.truth.e.length === 1;
-    root.replaceChildren(drawGrid(), still ? '' : drawTruth(), ...data.runs.filter(run => run.visible).map(drawRun), still ? drawTruth() : '', marks, drawScaleBar(),
+    root.replaceChildren(drawGrid(), drawBuildings(x, y), drawLandmarks(x, y, width, height), still ? '' : drawTruth(), ...data.runs.filter(run => run.visible).map(drawRun), still ? drawTruth() : '', spot, drawScaleBar(),
       svg('g', {transform: `translate(${width - 26} 30)`}, svg('path', {d: 'M0 -16L6 6L0 2L-6 6Z', fill: 'var(--ink)'}), svg('text', {class: 'strong', x: 0, y: 20, 'text-anchor': 'middle'}, 'N')));
     drawMarks(cursor.time);
   }
@@ -173,5 +174,5 @@ function describeEpoch(run, i) {
 
 function mapSummary() {
   const parts = data.runs.map(run => `${run.name}: ${run.count} epochs`);
-  return `Map of ${parts.join('; ')}${data.truth.e.length ? ', with the truth' : ''}. The figures are in the results table.`;
+  return `Map of ${parts.join('; ')}${data.truth.e.length ? ', with the truth' : ''}${hasLandmarks ? ', landmarks' : ''}${data.scene.buildings.length ? ', buildings' : ''}. The figures are in the results table.`;
 }

@@ -104,7 +104,7 @@ function drawDistribution() {
   const holder = element('div');
   section.append(element('div', {class: 'bar'}, runButtons()), holder);
   drawIn(holder, width => {
-    const left = 40, right = 12, top = 8, bottom = 40, height = width < 340 ? 300 : 470;
+    const left = 40, right = 12, top = 8, bottom = 40, height = width < 420 ? 300 : hasLandmarks ? 510 : 470;
     const runs = data.runs.filter(run => run.visible && run.cdf.length);
     const last = share => Math.max(0.1, ...runs.map(run => run.cdf[Math.round(share * (run.cdf.length - 1))]));
     const limit = Math.min(last(1), last(0.98) * 1.25);
