@@ -1,5 +1,6 @@
 #include "tools/lodemark/compare_statistics.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -34,6 +35,19 @@ std::optional<double> NormalisedHorizontalError(double east_m, double north_m,
 std::optional<double> NormalisedHorizontalError(double east_m, double north_m, double accuracy_m) {
   if (!(accuracy_m > 0.0)) return std::nullopt;
   return std::hypot(east_m, north_m) * kRadius68_sigma / accuracy_m;
+}
+
+std::optional<double> NormalisedSquaredError(const std::array<double, 3>& error_m,
+                                             const std::array<double, 6>& covariance_m2) {
+  const auto [ee, en, nn, eu, nu, uu] = covariance_m2;
+  Eigen::Matrix3d covariance;
+  covariance << ee, en, eu, en, nn, nu, eu, nu, uu;
+  const Eigen::LLT<Eigen::Matrix3d> factor(covariance);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  const Eigen::Vector3d white =
+      factor.matrixL().solve(Eigen::Vector3d(error_m[0], error_m[1], error_m[2]));
+  const double squared = white.squaredNorm();
+  return std::isfinite(squared) ? std::optional<double>(squared) : std::nullopt;
 }
 
 double SortedQuantile(const std::vector<double>& sorted, double share) {
@@ -71,7 +85,7 @@ ErrorStatistics StatisticsOf(const std::vector<EpochError>& errors, std::int64_t
   ErrorStatistics statistics;
   statistics.expected_epochs = expected_epochs;
   statistics.answered_epochs = static_cast<std::int64_t>(errors.size());
-  std::vector<double> horizontal, three_d, up, horizontal_velocity, up_velocity, accuracy;
+  std::vector<double> horizontal, three_d, up, horizontal_velocity, up_velocity, accuracy, nees;
   for (const EpochError& error : errors) {
     const double horizontal_m = error.horizontal_m();
     horizontal.push_back(horizontal_m);
@@ -93,6 +107,10 @@ ErrorStatistics StatisticsOf(const std::vector<EpochError>& errors, std::int64_t
       statistics.within_accuracy.Add(horizontal_m <= *error.accuracy_m);
     }
     if (error.normalised) statistics.beyond_3_sigma.Add(*error.normalised > kFarOut_sigma);
+    if (error.nees) {
+      nees.push_back(*error.nees);
+      statistics.nees_in_band.Add(*error.nees >= kLeastNees && *error.nees <= kGreatestNees);
+    }
     if (error.protection_level_m) {
       statistics.beyond_protection.Add(horizontal_m > *error.protection_level_m);
     }
@@ -103,6 +121,7 @@ ErrorStatistics StatisticsOf(const std::vector<EpochError>& errors, std::int64_t
   statistics.horizontal_velocity_mps = SpreadOf(horizontal_velocity);
   statistics.up_velocity_mps = SpreadOf(up_velocity);
   statistics.stated_accuracy_m = SpreadOf(accuracy);
+  statistics.nees = SpreadOf(nees);
   return statistics;
 }
 

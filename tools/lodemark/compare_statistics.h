@@ -21,6 +21,8 @@ struct EpochError {
   std::optional<double> vertical_protection_level_m;
   // Horizontal error in units of its own sigma, see NormalisedHorizontalError.
   std::optional<double> normalised;
+  // The same in three dimensions, squared, see NormalisedSquaredError.
+  std::optional<double> nees;
 
   double horizontal_m() const;
 };
@@ -32,6 +34,11 @@ std::optional<double> NormalisedHorizontalError(double east_m, double north_m,
 
 // The same when only the 68 % radius is known: the error is taken as circular.
 std::optional<double> NormalisedHorizontalError(double east_m, double north_m, double accuracy_m);
+
+// Square of the Mahalanobis distance of (east, north, up) under the covariance ee, en, nn, eu, nu,
+// uu: 3 on average if the covariance is honest. Empty if that is not positive definite.
+std::optional<double> NormalisedSquaredError(const std::array<double, 3>& error_m,
+                                             const std::array<double, 6>& covariance_m2);
 
 // Value below which the share of the sorted values lies, linear between neighbours: share 0 gives
 // the first, 1 the last, and value i stands at share i / (count - 1). At least one value.
@@ -62,6 +69,10 @@ struct Share {
   double value() const { return of > 0 ? static_cast<double>(count) / static_cast<double>(of) : 0; }
 };
 
+// Ends of the middle 95 % of chi-square with 3 degrees of freedom.
+inline constexpr double kLeastNees = 0.2158;
+inline constexpr double kGreatestNees = 9.3484;
+
 struct ErrorStatistics {
   std::int64_t expected_epochs = 0;
   std::int64_t answered_epochs = 0;
@@ -71,6 +82,8 @@ struct ErrorStatistics {
   Spread horizontal_velocity_mps;
   Spread up_velocity_mps;
   Spread stated_accuracy_m;
+  Spread nees;
+  Share nees_in_band;       // within the middle 95 % of chi-square with 3 degrees of freedom
   Share within_accuracy;    // horizontal error at most the stated 68 % radius
   Share beyond_3_sigma;     // normalised above 3
   Share beyond_protection;  // horizontal error above its protection level

@@ -94,6 +94,7 @@ TextTable CompareTable(const std::vector<ComparedRun>& runs) {
                "%");
   table.AddRow("beyond 3 sigma (1.1 %)",
                Each(runs, [](const ErrorStatistics& s) { return Percent(s.beyond_3_sigma); }), "%");
+  AddSpreadRow("NEES, mean (3)", runs, &ErrorStatistics::nees, &Spread::mean, "", &table);
   const auto violations = [](const Share& share) {
     return share.of > 0 ? GroupDigits(share.count) : std::string();
   };

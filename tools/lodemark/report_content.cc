@@ -12,6 +12,7 @@
 #include "tools/lodemark/report_landmarks.h"
 #include "tools/lodemark/report_scene.h"
 #include "tools/lodemark/report_signals.h"
+#include "tools/lodemark/report_table.h"
 #include "tools/lodemark/run_errors.h"
 #include "tools/lodemark/run_folder.h"
 
@@ -93,7 +94,16 @@ ReportEpoch DrawnEpoch(const TrajectoryPoint& epoch, const EpochError* error, co
   if (covariance[0] && covariance[1] && covariance[2]) {
     drawn.ellipse = EllipseOf({*covariance[0], *covariance[1], *covariance[2]});
   }
+  drawn.protection_level_m = epoch.protection_level_m;
+  drawn.vertical_protection_level_m = epoch.vertical_protection_level_m;
+  // The middle 68 % of each axis.
+  constexpr double kHalfWidth68_sigma = 0.99446;
+  if (covariance[0] && covariance[2] && *covariance[0] >= 0.0 && *covariance[2] >= 0.0) {
+    drawn.half_width_m = std::array{kHalfWidth68_sigma * std::sqrt(*covariance[0]),
+                                    kHalfWidth68_sigma * std::sqrt(*covariance[2])};
+  }
   if (error != nullptr) {
+    drawn.nees = error->nees;
     drawn.error_m = std::array{error->east_m, error->north_m};
     drawn.up_error_m = error->up_m;
   }
@@ -149,17 +159,35 @@ std::vector<ReportTruthPoint> DrawnTruth(const Truth& truth, const EnuFrame& fra
   return drawn;
 }
 
-std::vector<double> ErrorQuantiles(const RunErrors& errors) {
-  std::vector<double> sorted;
-  for (const EpochError& error : errors.errors) sorted.push_back(error.horizontal_m());
-  std::sort(sorted.begin(), sorted.end());
+// Values at equal steps of share.
+std::vector<double> QuantilesOf(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
   std::vector<double> quantiles;
-  if (sorted.empty()) return quantiles;
+  if (values.empty()) return quantiles;
   for (std::size_t i = 0; i <= kQuantiles; ++i) {
     quantiles.push_back(
-        SortedQuantile(sorted, static_cast<double>(i) / static_cast<double>(kQuantiles)));
+        SortedQuantile(values, static_cast<double>(i) / static_cast<double>(kQuantiles)));
   }
   return quantiles;
+}
+
+// What is told of all errors, also of those that are not drawn.
+void AddErrorShares(const RunErrors& errors, const ErrorStatistics& statistics, ReportRun* run) {
+  std::vector<double> horizontal_m, chances;
+  for (const EpochError& error : errors.errors) {
+    horizontal_m.push_back(error.horizontal_m());
+    // The share of the stated distribution that lies nearer than the truth.
+    if (error.normalised) {
+      chances.push_back(1.0 - std::exp(-0.5 * *error.normalised * *error.normalised));
+    }
+  }
+  run->error_quantiles_m = QuantilesOf(std::move(horizontal_m));
+  run->chance_quantiles = QuantilesOf(std::move(chances));
+  if (statistics.within_accuracy.of > 0) run->within_accuracy = statistics.within_accuracy.value();
+  if (statistics.nees.count > 0) {
+    run->mean_nees = statistics.nees.mean;
+    run->nees_in_band = statistics.nees_in_band.value();
+  }
 }
 
 Status GatherSignals(const RunFolder& run, std::int64_t start_ns, std::int64_t end_ns,
@@ -236,65 +264,6 @@ void GatherScene(const std::vector<RunFolder>& runs, const std::string& recordin
   report.scene.buildings = BuildingsNear(files.map, frame, report.runs, remarks);
 }
 
-// Results where no truth is known: what the runs say about themselves.
-TextTable UncheckedTable(const std::vector<RunFolder>& runs,
-                         const std::vector<std::string>& names) {
-  TextTable table(names);
-  std::vector<std::string> expected, answered, coverage, accuracy;
-  for (const RunFolder& run : runs) {
-    std::vector<double> stated_m;
-    std::int64_t count = 0;
-    for (const TrajectoryPoint& epoch : run.epochs) {
-      if (!epoch.has_position()) continue;
-      ++count;
-      if (epoch.accuracy_m) stated_m.push_back(*epoch.accuracy_m);
-    }
-    std::sort(stated_m.begin(), stated_m.end());
-    expected.push_back(GroupDigits(static_cast<std::int64_t>(run.epochs.size())));
-    answered.push_back(GroupDigits(count));
-    coverage.push_back(Format(
-        "%.1f", 100.0 * static_cast<double>(count) / static_cast<double>(run.epochs.size())));
-    accuracy.push_back(stated_m.empty() ? "" : MetresText(SortedQuantile(stated_m, 0.5)));
-  }
-  table.AddSection("Coverage");
-  table.AddRow("epochs expected", expected);
-  table.AddRow("epochs answered", answered);
-  table.AddRow("coverage", coverage, "%");
-  table.AddSection("Stated accuracy");
-  table.AddRow("median", accuracy, "m");
-  return table;
-}
-
-void AddFigures(const std::vector<ComparedRun>& compared, Report* report) {
-  const bool several = compared.size() > 1;
-  for (std::size_t place = 0; place < compared.size(); ++place) {
-    const ComparedRun& run = compared[place];
-    const ErrorStatistics& s = run.statistics;
-    if (s.horizontal_m.count > 0) {
-      report->figures.push_back(
-          {several ? run.name : "68 % of errors below", MetresText(s.horizontal_m.p68), "m",
-           several ? "for 68 % of epochs, " + MetresText(s.horizontal_m.p95) + " m for 95 %"
-                   : "horizontal",
-           several ? std::optional<std::size_t>(place) : std::nullopt});
-      if (!several) {
-        report->figures.push_back(
-            {"95 % of errors below", MetresText(s.horizontal_m.p95), "m", "horizontal"});
-      }
-    }
-    if (several && s.horizontal_m.count > 0) continue;
-    report->figures.push_back(
-        {several ? run.name + ": coverage" : "Coverage", Format("%.1f", 100.0 * s.coverage()), "%",
-         GroupDigits(s.answered_epochs) + " of " + GroupDigits(s.expected_epochs) + " epochs"});
-    if (s.within_accuracy.of > 0) {
-      report->figures.push_back({"Within stated accuracy",
-                                 Format("%.0f", 100.0 * s.within_accuracy.value()),
-                                 "%",
-                                 "68 % is honest",
-                                 {}});
-    }
-  }
-}
-
 }  // namespace
 
 Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
@@ -321,6 +290,7 @@ Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
   const std::optional<Geodetic> origin = OriginOf(runs, truth);
   const EnuFrame frame(origin.value_or(Geodetic{}));
   std::vector<ComparedRun> compared;
+  std::vector<RunErrors> all_errors;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const RunFolder& run = runs[i];
     std::optional<RunErrors> errors;
@@ -337,7 +307,10 @@ Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
     drawn.epoch_count = static_cast<std::int64_t>(run.epochs.size());
     drawn.span_s = SecondsSince(start_ns, end_ns);
     drawn.epochs = DrawnEpochs(run, errors, frame, start_ns);
-    if (errors) drawn.error_quantiles_m = ErrorQuantiles(*errors);
+    if (errors) {
+      AddErrorShares(*errors, compared.back().statistics, &drawn);
+      all_errors.push_back(std::move(*errors));
+    }
     const Status signals = GatherSignals(run, start_ns, end_ns, &drawn, &content.remarks);
     if (!signals.ok()) return signals.error();
     const Status events = GatherEvents(run, start_ns, &drawn, &content.remarks);
@@ -354,25 +327,13 @@ Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
   GatherScene(runs, recording, frame, start_ns, end_ns, &content);
 
   const TextTable table = truth ? CompareTable(compared) : UncheckedTable(runs, names);
-  for (const TextTable::Row& row : table.rows()) {
-    report.table.push_back({row.section, row.label, row.values, row.unit});
-  }
-  if (truth) {
-    report.truth = DrawnTruth(*truth, frame, start_ns, end_ns);
-    AddFigures(compared, &report);
-  } else {
-    for (const char* label : {"coverage", "median"}) {
-      for (const TextTable::Row& row : table.rows()) {
-        if (row.label != label || row.values.front().empty()) continue;
-        const bool coverage = row.label == "coverage";
-        report.figures.push_back({coverage ? "Coverage" : "Stated accuracy",
-                                  row.values.front(),
-                                  row.unit,
-                                  coverage ? "" : "median, no truth to check it",
-                                  {}});
-      }
+  for (const TextTable& part : {CommonEpochsTable(all_errors, names), table}) {
+    for (const TextTable::Row& row : part.rows()) {
+      report.table.push_back({row.section, row.label, row.values, row.unit});
     }
   }
+  if (truth) report.truth = DrawnTruth(*truth, frame, start_ns, end_ns);
+  AddFigures(compared, table, &report);
   report.start = CalendarText(start_ns);
   report.title = runs.size() == 1 ? names.front() : Format("%zu runs compared", runs.size());
   report.subtitle = report.start + " GPS time, " + Format("%.0f s", SecondsSince(start_ns, end_ns));

@@ -43,6 +43,12 @@ EpochError ErrorOf(const TrajectoryPoint& epoch, const TrajectoryPoint& truth) {
   } else if (epoch.accuracy_m) {
     error.normalised = NormalisedHorizontalError(error.east_m, error.north_m, *epoch.accuracy_m);
   }
+  if (error.up_m && covariance[0] && covariance[1] && covariance[2] && covariance[3] &&
+      covariance[4] && covariance[5]) {
+    error.nees = NormalisedSquaredError({error.east_m, error.north_m, *error.up_m},
+                                        {*covariance[0], *covariance[1], *covariance[2],
+                                         *covariance[3], *covariance[4], *covariance[5]});
+  }
   return error;
 }
 

@@ -34,9 +34,13 @@ struct ReportEpoch {
   double up_m = 0.0;
   std::optional<double> accuracy_m;           // 68 % radius
   std::optional<double> vertical_accuracy_m;  // 68 % half-width
+  std::optional<std::array<double, 2>> half_width_m;  // of the middle 68 %: east, north
   std::optional<ReportEllipse> ellipse;
+  std::optional<double> protection_level_m;
+  std::optional<double> vertical_protection_level_m;
   std::optional<std::array<double, 2>> error_m;  // east, north: estimate minus truth
   std::optional<double> up_error_m;
+  std::optional<double> nees;  // squared error in units of its covariance: 3 on average if honest
   std::optional<int> satellites_used;
   std::string status;  // "fix", or why there is no answer
 };
@@ -70,6 +74,12 @@ struct ReportRun {
   std::int64_t epoch_count = 0;     // those there are
   double span_s = 0.0;
   std::vector<double> error_quantiles_m;  // horizontal, at equal steps of share from 0 to 1
+  // Share of the stated horizontal distribution that is nearer than the truth, at the same steps;
+  // evenly spread if the stated one is honest.
+  std::vector<double> chance_quantiles;
+  std::optional<double> within_accuracy;  // share inside the stated 68 % radius
+  std::optional<double> mean_nees;
+  std::optional<double> nees_in_band;  // share within the middle 95 % of chi-square
   std::vector<ReportSignal> signals;
   std::vector<ReportEvent> events;
   std::int64_t event_count = 0;

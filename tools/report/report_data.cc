@@ -40,6 +40,22 @@ void AppendEpochs(const std::vector<ReportEpoch>& epochs, std::string* json) {
   *json += ',';
   AppendColumn("eu", epochs, 1e2, [](const ReportEpoch& e) { return e.up_error_m; }, json);
   *json += ',';
+  const auto half_width = [](std::size_t axis) {
+    return [axis](const ReportEpoch& e) {
+      return e.half_width_m ? Number((*e.half_width_m)[axis]) : std::nullopt;
+    };
+  };
+  AppendColumn("we", epochs, 1e2, half_width(0), json);
+  *json += ',';
+  AppendColumn("wn", epochs, 1e2, half_width(1), json);
+  *json += ',';
+  AppendColumn("pl", epochs, 1e2, [](const ReportEpoch& e) { return e.protection_level_m; }, json);
+  *json += ',';
+  AppendColumn(
+      "vpl", epochs, 1e2, [](const ReportEpoch& e) { return e.vertical_protection_level_m; }, json);
+  *json += ',';
+  AppendColumn("nees", epochs, 1e2, [](const ReportEpoch& e) { return e.nees; }, json);
+  *json += ',';
   AppendColumn(
       "used", epochs, 1.0,
       [](const ReportEpoch& e) {
@@ -114,6 +130,15 @@ void AppendRun(const ReportRun& run, std::string* json) {
   AppendEpochs(run.epochs, json);
   *json += ',';
   AppendColumn("cdf", run.error_quantiles_m, 1e2, [](double value) { return Number(value); }, json);
+  *json += ',';
+  AppendColumn(
+      "chance", run.chance_quantiles, 1e3, [](double value) { return Number(value); }, json);
+  *json += ",\"within\":";
+  AppendScaled(run.within_accuracy, 1e3, json);
+  *json += ",\"meanNees\":";
+  AppendScaled(run.mean_nees, 1e2, json);
+  *json += ",\"neesInBand\":";
+  AppendScaled(run.nees_in_band, 1e3, json);
   *json += ',';
   AppendArray(
       "signals", run.signals, [json](const ReportSignal& s) { AppendSignal(s, json); }, json);

@@ -115,5 +115,21 @@ TEST(StatisticsOf, MeasuresVelocityWhereItIsKnown) {
   EXPECT_DOUBLE_EQ(statistics.up_velocity_mps.mean, -0.2);
 }
 
+TEST(NormalisedSquaredError, CountsSigmasAlongTheAxesOfTheCovariance) {
+  EXPECT_DOUBLE_EQ(*NormalisedSquaredError({1.0, 2.0, 2.0}, {1.0, 0.0, 1.0, 0.0, 0.0, 1.0}), 9.0);
+  EXPECT_DOUBLE_EQ(*NormalisedSquaredError({2.0, 3.0, 8.0}, {4.0, 0.0, 9.0, 0.0, 0.0, 16.0}), 6.0);
+  // An error along the long axis, east and north at once: variance 1 + 0.5 there.
+  EXPECT_NEAR(*NormalisedSquaredError({1.0, 1.0, 0.0}, {1.0, 0.5, 1.0, 0.0, 0.0, 1.0}), 2.0 / 1.5,
+              1e-12);
+}
+
+TEST(NormalisedSquaredError, IsEmptyForACovarianceThatIsNone) {
+  EXPECT_FALSE(NormalisedSquaredError({1.0, 1.0, 1.0}, {1.0, 2.0, 1.0, 0.0, 0.0, 1.0}));
+  EXPECT_FALSE(NormalisedSquaredError({1.0, 1.0, 1.0}, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}));
+  const double none = std::nan("");
+  EXPECT_FALSE(NormalisedSquaredError({1.0, 1.0, 1.0}, {none, 0.0, 1.0, 0.0, 0.0, 1.0}));
+  EXPECT_FALSE(NormalisedSquaredError({none, 1.0, 1.0}, {1.0, 0.0, 1.0, 0.0, 0.0, 1.0}));
+}
+
 }  // namespace
 }  // namespace lodemark

@@ -8,7 +8,10 @@ data.runs.forEach((run, index) => {
   run.color = `var(--run${index % 5})`;
   run.visible = true;
   run.t = column(run.t, 1e-3);
-  for (const name of ['e', 'n', 'u', 'acc', 'vacc', 'ee', 'en', 'eu', 'cdf']) run[name] = column(run[name], 1e-2);
+  for (const name of ['e', 'n', 'u', 'acc', 'vacc', 'ee', 'en', 'eu', 'we', 'wn', 'pl', 'vpl', 'nees', 'cdf']) run[name] = column(run[name], 1e-2);
+  run.chance = column(run.chance, 1e-3);
+  // Where the covariance is unknown, the 68 % radius stands for both axes.
+  for (const name of ['we', 'wn']) run[name] = run[name].map((width, i) => Number.isFinite(width) ? width : run.acc[i]);
   run.used = column(run.used, 1);
   run.span *= 1e-3;
   for (const of of run.sights) for (const name of ['rx', 'ry']) of[name] = column(of[name], 1e-2);
@@ -112,6 +115,21 @@ function marks(state, points, r, color = stateColors[state], attributes = {}) {
   const filled = state === 'u' || state === 'd';
   return svg('path', {d, fill: filled ? color : 'none', stroke: filled ? 'none' : color, 'stroke-width': Math.max(1, r * 0.55), ...attributes});
 }
+// Runs have shapes too, where points of several lie among each other.
+const runShapes = [
+  (x, y, r) => markPaths.u(x, y, r),
+  (x, y, r) => `M${x - r} ${y - r}h${2 * r}v${2 * r}h${-2 * r}Z`,
+  (x, y, r) => markPaths.d(x, y, r),
+  (x, y, r) => `M${x} ${y - 1.4 * r}l${1.4 * r} ${1.4 * r}l${-1.4 * r} ${1.4 * r}l${-1.4 * r} ${-1.4 * r}Z`,
+  (x, y, r) => `M${x} ${y + 1.3 * r}l${1.25 * r} ${-2.2 * r}h${-2.5 * r}Z`,
+];
+function runPoints(run, points, r) {
+  const shape = runShapes[run.index % 5];
+  return svg('path', {d: points.map(([x, y]) => shape(tenths(x), tenths(y), r)).join(''), fill: run.color, 'fill-opacity': 0.7, stroke: 'var(--card)', 'stroke-width': 0.6});
+}
+function runShapeKey(run) {
+  return element('span', {class: 'key'}, svg('svg', {class: 'mark', viewBox: '0 0 14 14', 'aria-hidden': 'true'}, runPoints(run, [[7, 7]], 4.5)), run.name);
+}
 function markKey(label, state, color = stateColors[state]) {
   return element('span', {class: 'key'}, svg('svg', {class: 'mark', viewBox: '0 0 14 14', 'aria-hidden': 'true'}, marks(state, [[7, 7]], 4, color)), label);
 }
@@ -170,9 +188,9 @@ function key(label, color, kind = '') {
   return element('span', {class: 'key'}, element('i', {class: kind, style: kind === 'ring' ? `border-color:${color}` : `background:${color}`}), label);
 }
 // Buttons that show and hide runs, where there is more than one.
-function runButtons() {
+function runButtons(keyOf = run => key(run.name, run.color)) {
   return data.runs.map(run => {
-    const mark = key(run.name, run.color);
+    const mark = keyOf(run);
     if (data.runs.length === 1) return mark;
     const button = element('button', {type: 'button', 'aria-pressed': String(run.visible), 'data-run': run.index, onclick: () => {
       run.visible = !run.visible;

@@ -4,6 +4,8 @@ if (chosenRun) {
   if (hasErrors) drawDistribution(); else document.querySelector('.map').classList.add('alone');
   drawPhotos();
   drawErrors();
+  drawProtection();
+  drawHonesty();
   if (data.runs.some(run => run.signals.length)) {
     if (data.runs.length > 1) document.getElementById('charts').append(element('section', {class: 'card'}, chosenSelect('Satellites and events of')));
     drawSky(chosen);

@@ -71,7 +71,7 @@ function drawStrength(chosen) {
         svg('title', {}, `${signal.sat} ${signal.sig}`)));
     });
     root.append(cursorLine(root, left, right, width, height - bottom));
-    bar.replaceChildren(...[...systems].map(system => key(systemNames[system] || system, systemColors[system] || 'var(--soft)', 'thin')));
+    bar.replaceChildren(...[...systems].map(system => key(systemNames[system] || system || 'unknown', systemColors[system] || 'var(--soft)', 'thin')));
     holder.replaceChildren(root);
   });
 }

@@ -1,7 +1,7 @@
 // Errors over time with the stated accuracy behind them, and their distribution.
 function drawErrors() {
   const section = card('', hasErrors ? 'Error over time' : 'Position over time',
-    hasErrors ? 'Estimate minus truth. The band is the stated accuracy: it should hold the line 68 % of the time. Grey: no answer.'
+    hasErrors ? 'Estimate minus truth, in metres. The band is what each estimate states of itself and should hold 68 % of the line; how much it held stands beside it. Grey: no answer.'
               : 'Around the middle of the track. The band is the stated accuracy (68 %). Grey: no answer.');
   const bar = element('div', {class: 'bar'}, runButtons());
   const holder = element('div');
@@ -11,8 +11,8 @@ function drawErrors() {
   const middle = {};
   for (const name of ['e', 'n', 'u']) middle[name] = quantile(data.runs.flatMap(run => run[name]), 0.5);
   const panels = [
-    {label: 'East', error: 'ee', position: 'e', accuracy: 'acc'},
-    {label: 'North', error: 'en', position: 'n', accuracy: 'acc'},
+    {label: 'East', error: 'ee', position: 'e', accuracy: 'we'},
+    {label: 'North', error: 'en', position: 'n', accuracy: 'wn'},
     {label: 'Up', error: 'eu', position: 'u', accuracy: 'vacc'},
   ];
   const values = (run, panel) => hasErrors ? run[panel.error] : run[panel.position].map(v => v - middle[panel.position]);
@@ -73,13 +73,21 @@ function drawPanel(panel, top, tall, width, left, right, x, runs, values) {
   }
   for (const run of runs) {
     const v = values(run, panel), xs = run.t.map(x);
-    plot.append(svg('path', {d: path(xs, v.map(y)), fill: 'none', stroke: run.color, 'stroke-width': 1.4, 'stroke-linejoin': 'round'}));
+    plot.append(svg('path', {d: path(xs, v.map(y)), fill: 'none', stroke: run.color, 'stroke-width': 1.4, 'stroke-linejoin': 'round', 'stroke-linecap': 'round'}));
     // Values beyond the drawn range get a tick on its edge.
     let beyond = '';
     for (let i = 0; i < v.length; ++i) if (Math.abs(v[i]) > limit) beyond += `M${xs[i].toFixed(1)} ${v[i] > 0 ? top : top + tall}v${v[i] > 0 ? 6 : -6}`;
     plot.append(svg('path', {d: beyond, stroke: run.color, 'stroke-width': 2}));
   }
-  group.append(plot, svg('text', {class: 'strong', x: left + 6, y: top + 13}, `${panel.label}, m`));
+  group.append(plot, svg('text', {class: 'strong halo', x: left + 6, y: top + 13}, `${panel.label}, m`));
+  if (hasErrors) {
+    const held = svg('text', {class: 'halo', x: width - right - 6, y: top + 13, 'text-anchor': 'end'});
+    for (const run of runs) {
+      const v = values(run, panel), of = v.map((value, i) => Math.abs(value) / run[panel.accuracy][i]).filter(Number.isFinite);
+      if (of.length) held.append(svg('tspan', {dx: 10, fill: run.color}, `${runs.length > 1 ? run.name + ' ' : ''}${Math.round(100 * of.filter(share => share <= 1).length / of.length)} % inside`));
+    }
+    group.append(held);
+  }
   return group;
 }
 
@@ -104,7 +112,7 @@ function drawDistribution() {
   const holder = element('div');
   section.append(element('div', {class: 'bar'}, runButtons()), holder);
   drawIn(holder, width => {
-    const left = 40, right = 12, top = 8, bottom = 40, height = width < 420 ? 300 : hasLandmarks ? 510 : 470;
+    const left = 40, right = 12, top = 8, bottom = 40, height = innerWidth <= 860 ? 300 : hasLandmarks ? 510 : 470;
     const runs = data.runs.filter(run => run.visible && run.cdf.length);
     const last = share => Math.max(0.1, ...runs.map(run => run.cdf[Math.round(share * (run.cdf.length - 1))]));
     const limit = Math.min(last(1), last(0.98) * 1.25);
@@ -127,7 +135,7 @@ function drawDistribution() {
         const v = cdfAt(run, share);
         if (v > limit) continue;
         root.append(svg('circle', {cx: x(v), cy: y(share), r: 4, fill: run.color, stroke: 'var(--card)', 'stroke-width': 1.5}));
-        if (runs.length === 1) root.append(svg('text', {class: 'strong', x: x(v) + 8, y: y(share) + 16}, metres(v)));
+        if (runs.length === 1) root.append(svg('text', {class: 'strong halo', x: x(v) + (x(v) > width - 80 ? -8 : 8), y: y(share) + 16, 'text-anchor': x(v) > width - 80 ? 'end' : 'start'}, metres(v)));
       }
     }
     holder.replaceChildren(root);
