@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "tools/mapping/convex_parts.h"
+#include "core/geo/convex_parts.h"
 
 namespace lodemark {
 

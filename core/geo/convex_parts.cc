@@ -1,4 +1,4 @@
-#include "tools/mapping/convex_parts.h"
+#include "core/geo/convex_parts.h"
 
 #include <algorithm>
 #include <cmath>
