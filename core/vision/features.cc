@@ -13,6 +13,7 @@
 
 #include "core/base/units.h"
 #include "core/vision/feature_budget.h"
+#include "core/vision/working_size.h"
 
 namespace lodemark {
 namespace {
@@ -59,20 +60,18 @@ struct WorkingImage {
   double y_scale = 1.0;
 };
 
-WorkingImage ScaleDown(const GrayImage& image, int longest_side_px) {
+WorkingImage ScaleDown(const GrayImage& image, const DetectorOptions& options) {
   // OpenCV has no view of constant pixels; nothing writes to them.
   const cv::Mat given(image.height_px, image.width_px, CV_8UC1,
                       const_cast<std::uint8_t*>(image.pixels),  // NOLINT
                       static_cast<std::size_t>(image.stride_bytes));
-  const int longest_px = std::max(image.width_px, image.height_px);
-  if (longest_side_px == 0 || longest_px <= longest_side_px) return {given};
-  const double scale = static_cast<double>(longest_side_px) / longest_px;
-  const int width_px = std::max(1, static_cast<int>(std::lround(image.width_px * scale)));
-  const int height_px = std::max(1, static_cast<int>(std::lround(image.height_px * scale)));
+  const WorkingSize size = WorkingSizeOf(image.width_px, image.height_px, options);
+  if (size.width_px == image.width_px && size.height_px == image.height_px) return {given};
   WorkingImage working;
-  cv::resize(given, working.pixels, cv::Size(width_px, height_px), 0.0, 0.0, cv::INTER_AREA);
-  working.x_scale = static_cast<double>(image.width_px) / width_px;
-  working.y_scale = static_cast<double>(image.height_px) / height_px;
+  cv::resize(given, working.pixels, cv::Size(size.width_px, size.height_px), 0.0, 0.0,
+             cv::INTER_AREA);
+  working.x_scale = static_cast<double>(image.width_px) / size.width_px;
+  working.y_scale = static_cast<double>(image.height_px) / size.height_px;
   return working;
 }
 
@@ -166,7 +165,7 @@ Result<Features> DetectFeatures(const GrayImage& image, const DetectorOptions& o
     return Error{ErrorCode::kInvalidArgument, "detector: a budget or size that is not positive"};
   }
   try {
-    const WorkingImage working = ScaleDown(image, options.longest_side_px);
+    const WorkingImage working = ScaleDown(image, options);
     if (std::min(working.pixels.cols, working.pixels.rows) < kShortestSide_px) {
       return Features{options.kind, {}, {}};
     }
