@@ -1,5 +1,6 @@
 #include "tools/mapping/marked_map.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/resection/collinearity.h"
 #include "core/resection/resection.h"
 #include "tools/mapping/survey_table.h"
 #include "tools/photos/photo_file.h"
@@ -43,11 +45,31 @@ std::vector<std::size_t> FeaturesAt(const ImageMark& mark, const std::vector<Key
   return indices;
 }
 
+// How far the feature at that pixel lies from the landmark, across the line of sight and any way
+// round. Nothing where the lens does not show the landmark.
+std::optional<Eigen::Matrix3d> CovarianceOfOffset(const Keypoint& keypoint,
+                                                  const Landmark& landmark,
+                                                  const DatabaseImage& image, const Lens& lens) {
+  const Rigid3 camera_from_enu(image.camera_from_enu,
+                               -(image.camera_from_enu * image.position_in_enu_m));
+  LandmarkSight sight;
+  sight.pixel = {keypoint.x_px, keypoint.y_px};
+  sight.landmark_in_enu_m = landmark.position_in_enu_m;
+  LinearSight linear;
+  if (!Linearise(sight, CameraPose(camera_from_enu), lens, &linear)) return std::nullopt;
+  const Eigen::Matrix2d product = linear.by_landmark * linear.by_landmark.transpose();
+  const Eigen::Matrix<double, 3, 2> by_pixel = linear.by_landmark.transpose() * product.inverse();
+  const Eigen::Matrix3d covariance =
+      0.5 * linear.residual_px.squaredNorm() * by_pixel * by_pixel.transpose();
+  if (!covariance.allFinite()) return std::nullopt;
+  return covariance;
+}
+
 class MarkedMap {
  public:
   MarkedMap(const MarkedMapInput& input, const MapFrame& frame,
             const std::vector<SurveyedPoint>& points)
-      : input_(input) {
+      : input_(input), off_marks_(points.size()) {
     for (const SurveyedPoint& point : points) {
       Landmark landmark;
       landmark.id = static_cast<std::uint32_t>(ids_.size()) + 1;
@@ -96,6 +118,7 @@ class MarkedMap {
       for (const std::size_t index : indices) {
         DescriptorOrigin origin;
         origin.landmark_id = ids_.at(mark.point);
+        NoteOffset(features->keypoints[index], origin.landmark_id, image);
         origin.image_id = image.id;
         content_.origins.push_back(origin);
         content_.places_in_image.emplace_back(
@@ -113,6 +136,10 @@ class MarkedMap {
     std::set<std::uint32_t> described;
     for (const DescriptorOrigin& origin : content_.origins) described.insert(origin.landmark_id);
     const std::size_t all = content_.landmarks.size();
+    for (Landmark& landmark : content_.landmarks) {
+      const OffMark& off = off_marks_[landmark.id - 1];
+      if (off.features > 0.0) landmark.covariance_m2 += off.sum_m2 / off.features;
+    }
     std::erase_if(content_.landmarks,
                   [&](const Landmark& landmark) { return !described.contains(landmark.id); });
     if (marks_without_feature_ > 0) {
@@ -128,9 +155,27 @@ class MarkedMap {
   }
 
  private:
+  // Of a landmark's features, as far as the photographs' poses are known.
+  struct OffMark {
+    Eigen::Matrix3d sum_m2 = Eigen::Matrix3d::Zero();
+    double features = 0.0;
+  };
+
+  // A look-up finds the feature, not the mark: what lies between them is an error of the landmark,
+  // much the same in every photograph.
+  void NoteOffset(const Keypoint& keypoint, std::uint32_t landmark_id, const DatabaseImage& image) {
+    if (!image.pose_known) return;
+    const std::optional<Eigen::Matrix3d> covariance =
+        CovarianceOfOffset(keypoint, content_.landmarks[landmark_id - 1], image, *lens_);
+    if (!covariance) return;
+    OffMark& off = off_marks_[landmark_id - 1];
+    off.sum_m2 += *covariance;
+    off.features += 1.0;
+  }
+
   // Leaves the image without a pose if its marks do not tell one.
   Status FindPose(const std::string& path, const Photo& photo, const std::vector<ImageMark>& marks,
-                  DatabaseImage* image) const {
+                  DatabaseImage* image) {
     if (!input_.lens || marks.size() < kLeastMarksForPose) return {};
     if (photo.width_px != input_.lens->width_px || photo.height_px != input_.lens->height_px) {
       return Error{ErrorCode::kBadData, path + ": is " + std::to_string(photo.width_px) + " x " +
@@ -139,8 +184,11 @@ class MarkedMap {
                                             std::to_string(input_.lens->width_px) + " x " +
                                             std::to_string(input_.lens->height_px)};
     }
-    const Result<Lens> lens = Lens::Create(*input_.lens);
-    if (!lens) return lens.error();
+    if (!lens_) {
+      const Result<Lens> lens = Lens::Create(*input_.lens);
+      if (!lens) return lens.error();
+      lens_ = *lens;
+    }
     std::vector<LandmarkSight> sights;
     for (const ImageMark& mark : marks) {
       const Landmark& landmark = content_.landmarks[ids_.at(mark.point) - 1];
@@ -151,7 +199,7 @@ class MarkedMap {
       sight.landmark_covariance_m2 = landmark.covariance_m2;
       sights.push_back(sight);
     }
-    const Result<ResectedPose> pose = Resect(sights, *lens, {}, {});
+    const Result<ResectedPose> pose = Resect(sights, *lens_, {}, {});
     if (!pose) return pose.error();
     image->pose_known = pose->verdict == PoseVerdict::kPose || pose->verdict == PoseVerdict::kWeak;
     if (!image->pose_known) return {};
@@ -163,6 +211,8 @@ class MarkedMap {
   const MarkedMapInput& input_;
   std::map<std::string, std::uint32_t> ids_;  // by name; landmarks are in the order of ids
   MapContent content_;
+  std::vector<OffMark> off_marks_;  // in the order of the landmarks
+  std::optional<Lens> lens_;        // where a pose was looked for
   std::size_t marks_without_feature_ = 0;
 };
 

@@ -17,7 +17,8 @@ struct MarkedMapInput {
   std::string marks;   // csv: image, point, x_px, y_px
   std::string survey;  // csv: point and its place
   // With it each photograph's pose is found from its marks, and the map knows from where its
-  // descriptors were seen.
+  // descriptors were seen, and counts how far the features lie from their marks as an error of the
+  // landmarks.
   std::optional<LensParameters> lens;
   PlaceOptions places;
   FrameOptions frame;

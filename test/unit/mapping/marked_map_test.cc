@@ -53,7 +53,6 @@ class MarkedScene {
     const Lens lens = *Lens::Create(lens_);
     cv::Mat image(kHeight_px, kWidth_px, CV_8U, cv::Scalar(90));
     std::string survey = "point,east_m,north_m,up_m,sigma_m\n";
-    std::string marks = "image,point,x_px,y_px\n";
     Random random(3);
     for (int i = 0; i < 8; ++i) {
       const Eigen::Vector3d point(-3.0 + 2.0 * (i % 4) + random.Uniform(), 10.0 + 2.0 * (i % 3),
@@ -64,14 +63,25 @@ class MarkedScene {
       std::snprintf(row, sizeof row, "p%d,%.6f,%.6f,%.6f,0.01\n", i, point.x(), point.y(),
                     point.z());
       survey += row;
-      std::snprintf(row, sizeof row, "a.png,p%d,%.3f,%.3f\n", i, pixel.x(), pixel.y());
-      marks += row;
+      pixels_.push_back(pixel);
     }
     input_.images = folder_.path();
     input_.survey = folder_.Write("survey.csv", survey);
-    input_.marks = folder_.Write("marks.csv", marks);
+    input_.marks = ShiftedMarks(0.0);
     input_.frame.local = true;
     cv::imwrite(folder_.File("a.png"), image);
+  }
+
+  // Marks that all lie so far to the right of their points.
+  std::string ShiftedMarks(double shift_px) const {
+    std::string marks = "image,point,x_px,y_px\n";
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+      char row[200];
+      std::snprintf(row, sizeof row, "a.png,p%d,%.3f,%.3f\n", static_cast<int>(i),
+                    pixels_[i].x() + shift_px, pixels_[i].y());
+      marks += row;
+    }
+    return folder_.Write("marks.csv", marks);
   }
 
   const test::ScratchFolder& folder() const { return folder_; }
@@ -83,6 +93,7 @@ class MarkedScene {
   test::ScratchFolder folder_;
   MarkedMapInput input_;
   LensParameters lens_;
+  std::vector<Eigen::Vector2d> pixels_;  // of the points
   Eigen::Vector3d centre_{0.5, -1.0, 1.6};
 };
 
@@ -112,6 +123,25 @@ TEST(MarkedMap, FindsWherePhotographsWereTakenIfTheLensIsKnown) {
   EXPECT_GT(built->content.origins.front().distance_m, 8.0F);
   input.lens->width_px = 641;
   EXPECT_FALSE(BuildMarkedMap(input, Quiet).ok());
+}
+
+TEST(MarkedMap, CountsHowFarFeaturesLieFromTheirMarks) {
+  // A mark beside the middle of its blob: the feature is not the surveyed point.
+  const MarkedScene scene;
+  const auto sigma_m = [&](double shift_px) {
+    MarkedMapInput input = scene.input();
+    input.lens = scene.lens();
+    input.marks = scene.ShiftedMarks(shift_px);
+    const Result<BuiltMap> built = BuildMarkedMap(input, Quiet);
+    if (!built.ok() || !built->content.images.front().pose_known) return -1.0;
+    return std::sqrt(built->content.landmarks[0].covariance_m2.trace());
+  };
+  const double at_marks_m = sigma_m(0.0);
+  const double beside_m = sigma_m(1.2);
+  EXPECT_GT(at_marks_m, std::sqrt(3e-4));
+  EXPECT_LT(at_marks_m, std::sqrt(3e-4) + 0.01);
+  // 1.2 px of 600 at 11 m.
+  EXPECT_NEAR(beside_m, std::hypot(std::sqrt(3e-4), 1.2 * 11.0 / 600.0), 0.006);
 }
 
 TEST(MarkedMap, SaysWhichMarksAreOfNoUse) {
