@@ -37,6 +37,7 @@ int Run(int argument_count, char** arguments) {
   AddReportCommand(app, &exit_code);
   AddResectCommand(app, &exit_code);
   AddSimulateCommand(app, &exit_code);
+  AddSkyCommand(app, &exit_code);
 
   try {
     app.parse(argument_count, arguments);

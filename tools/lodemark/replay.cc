@@ -13,6 +13,7 @@
 #include "tools/lodemark/replay_inputs.h"
 #include "tools/lodemark/replay_measurements.h"
 #include "tools/lodemark/replay_options.h"
+#include "tools/lodemark/replay_orbits.h"
 #include "tools/lodemark/replay_photos.h"
 #include "tools/lodemark/replay_session.h"
 #include "tools/lodemark/replay_summary.h"
@@ -27,8 +28,6 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kLargestOrbitFile_bytes = 512u * 1024 * 1024;
-
 // What is left to say at the end, on stderr.
 struct Remarks {
   std::vector<std::string> sentences;
@@ -38,30 +37,6 @@ struct Remarks {
 std::string JsonText(const ordered_json& json) {
   // Bytes of a path that are not UTF-8 are replaced rather than fatal.
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
-}
-
-Status PushOrbits(const ReplayInputs& inputs, ReplaySession* session, Remarks* remarks) {
-  const auto push = [&](const std::string& path, auto method, const char* wanted) -> Status {
-    const Result<std::string> content = ReadFileWhole(path, kLargestOrbitFile_bytes);
-    if (!content) return WithAdvice(content.error(), wanted);
-    lodemark_read_report report;
-    const Status pushed = (session->*method)(path, *content, &report);
-    if (!pushed.ok()) return WithAdvice(pushed.error(), wanted);
-    if (report.rows_skipped > 0) {
-      remarks->Add(path + ": " + GroupDigits(report.rows_skipped) +
-                   " malformed records skipped, the first: " + report.first_problem);
-    }
-    return {};
-  };
-  for (const std::string& path : inputs.navigation) {
-    const Status pushed = push(path, &ReplaySession::PushNavigation, "a RINEX navigation file");
-    if (!pushed.ok()) return pushed;
-  }
-  for (const std::string& path : inputs.precise_orbits) {
-    const Status pushed = push(path, &ReplaySession::PushPreciseOrbits, "an SP3 file");
-    if (!pushed.ok()) return pushed;
-  }
-  return {};
 }
 
 ordered_json RunJson(const ReplayOptions& options, const ReplayInputs& inputs) {
@@ -248,7 +223,7 @@ int RunReplay(const ReplayOptions& options) {
   Result<ReplaySession> session = ReplaySession::Open(*session_options);
   if (!session) return ReportError(session.error());
   Remarks remarks{inputs->remarks};
-  const Status orbits = PushOrbits(*inputs, &*session, &remarks);
+  const Status orbits = PushOrbits(*inputs, &*session, &remarks.sentences);
   if (!orbits.ok()) return ReportError(orbits.error());
 
   std::optional<PhotoSource> photos;

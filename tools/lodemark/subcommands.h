@@ -16,5 +16,6 @@ void AddReplayCommand(CLI::App& app, int* exit_code);
 void AddReportCommand(CLI::App& app, int* exit_code);
 void AddResectCommand(CLI::App& app, int* exit_code);
 void AddSimulateCommand(CLI::App& app, int* exit_code);
+void AddSkyCommand(CLI::App& app, int* exit_code);
 
 }  // namespace lodemark
