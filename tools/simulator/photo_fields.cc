@@ -6,6 +6,7 @@
 
 #include "core/base/units.h"
 #include "core/logs/camera_file.h"
+#include "tools/simulator/signal_paths.h"
 
 namespace lodemark {
 namespace {
@@ -124,6 +125,8 @@ void ReadScene(ScenarioFields* parent, Scene* scene) {
     ReadSeed(one, &tree.seed);
     scene->trees.push_back(tree);
   });
+  const Result<SignalSurroundings> surroundings = SignalSurroundings::Make(scene->buildings);
+  if (!surroundings) fields.Fail("buildings", "number " + surroundings.error().message);
   parent->Adopt(fields.Verdict());
 }
 

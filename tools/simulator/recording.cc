@@ -19,6 +19,7 @@ constexpr std::int64_t kUnixOffset_ms = 315'964'800'000;  // of 1980-01-06
 constexpr double kTruthStep_s = 0.25;
 constexpr double kTruthMargin_s = 1.0;  // receiver clocks stray, so the truth reaches further
 constexpr int kSensorRowsPerEpoch = 2;
+constexpr const char* kPathsFile = "signal_paths.csv";
 
 std::int64_t UnixMilliseconds(std::int64_t time_gps_ns) {
   return ScaleFromGps(time_gps_ns, TimeScale::kUtc) / kMillisecond_ns + kUnixOffset_ms;
@@ -70,6 +71,19 @@ std::string TruthText(const Scenario& scenario, const Simulator& simulator) {
     text += row;
   }
   return text;
+}
+
+// The truth about every satellite's way to the phone, for whoever labels or predicts it.
+void AppendPathRows(const SimulatedEpoch& epoch, std::string* text) {
+  for (const SimulatedEpoch::Path& path : epoch.paths) {
+    char row[160];
+    std::snprintf(row, sizeof row, "%lld,%c%02d,%.3f,%.3f,%.3f,%.3f,%.3f\n",
+                  static_cast<long long>(epoch.true_gps_ns), SystemLetter(path.satellite.system),
+                  path.satellite.number, path.look.elevation_rad * kDegreesPerRadian,
+                  path.look.azimuth_rad * kDegreesPerRadian, path.paths.direct,
+                  path.paths.reflected, path.paths.extra_path_m);
+    *text += row;
+  }
 }
 
 // What the phone's own positioning and its inertial sensors would have logged.
@@ -158,6 +172,9 @@ std::string ManifestText(const Scenario& scenario) {
        {scenario.place.latitude_rad * kDegreesPerRadian,
         scenario.place.longitude_rad * kDegreesPerRadian, scenario.place.height_m}},
       {"notes", "Made by lodemark simulate. No measurement in it was ever taken."}};
+  if (!scenario.photography.scene.buildings.empty()) {
+    manifest["files"]["signal_paths"] = kPathsFile;
+  }
   for (const PhotoGroup& group : scenario.photography.groups) {
     // The phone's own photographs, and those that a map is made from.
     const std::string role = group.frames.empty() ? group.folder + "_" : "";
@@ -177,6 +194,11 @@ RecordingFiles MakeRecording(const Scenario& scenario,
   RecordingFiles files;
   std::string& log = files["gnss_log.txt"];
   log = GnssLoggerHeader();
+  std::string* paths = nullptr;
+  if (!scenario.photography.scene.buildings.empty()) {
+    paths = &files[kPathsFile];
+    *paths = "time_gps_ns,satellite,elevation_deg,azimuth_deg,direct,reflected,extra_path_m\n";
+  }
   SimulatedEpoch epoch;
   while (simulator.Next(&epoch)) {
     const std::int64_t utc_ms = UnixMilliseconds(epoch.true_gps_ns);
@@ -188,6 +210,7 @@ RecordingFiles MakeRecording(const Scenario& scenario,
                           epoch.raw.clock.elapsed_realtime_ns + std::llround(ahead_s * 1e9), &log);
     }
     AppendRawRows(epoch.raw, utc_ms, &log);
+    if (paths != nullptr) AppendPathRows(epoch, paths);
     phone.AppendFix(epoch, simulator.frame(), scenario.interval_s, utc_ms, &log);
     if (progress) progress(simulator.progress());
   }

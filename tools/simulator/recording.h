@@ -9,7 +9,8 @@
 
 namespace lodemark {
 
-// File names and their content: gnss_log.txt, the navigation file, truth.csv, manifest.json.
+// File names and their content: gnss_log.txt, the navigation file, truth.csv, manifest.json, and
+// between buildings signal_paths.csv.
 using RecordingFiles = std::map<std::string, std::string>;
 
 // The same files, to the last byte, for the same scenario. progress, if not empty, is called with

@@ -8,7 +8,9 @@
 #include "core/base/units.h"
 #include "core/geo/time.h"
 #include "tools/simulator/photo_fields.h"
+#include "tools/simulator/receiver_path.h"
 #include "tools/simulator/scenario_fields.h"
+#include "tools/simulator/signal_paths.h"
 
 namespace lodemark {
 namespace {
@@ -75,6 +77,21 @@ void ReadPlace(const std::string& file, const json& object, ScenarioFields* pare
   parent->Adopt(fields.Verdict());
 }
 
+// Nobody walks through walls.
+void CheckOutdoors(const Scenario& scenario, ScenarioFields* fields) {
+  const Result<SignalSurroundings> surroundings =
+      SignalSurroundings::Make(scenario.photography.scene.buildings);
+  if (!surroundings || surroundings->empty()) return;
+  const ReceiverPath path(scenario);
+  for (int i = 0; i < scenario.epochs; ++i) {
+    const double time_s = i * scenario.interval_s;
+    if (!surroundings->IsIndoors(path.At(time_s).position_in_enu)) continue;
+    char text[80];
+    std::snprintf(text, sizeof text, "leads into a building of the scene after %.1f s", time_s);
+    return fields->Fail("waypoints_m", text);
+  }
+}
+
 }  // namespace
 
 Result<Scenario> PresetScenario(std::string_view name) {
@@ -139,6 +156,7 @@ Result<Scenario> ScenarioFromJson(const std::string& file, std::string_view text
     scenario.phone_height_m = kPhotographer_m;
   }
   fields.Number("phone_height_m", 0.0, 50.0, &scenario.phone_height_m);
+  CheckOutdoors(scenario, &fields);
   const std::optional<Error> error = fields.Verdict();
   if (error) return *error;
   return scenario;

@@ -5,6 +5,7 @@
 
 #include "core/base/random.h"
 #include "core/gnss/signal.h"
+#include "tools/simulator/signal_paths.h"
 
 namespace lodemark {
 
@@ -36,13 +37,15 @@ struct SignalDisturbance {
 // The disturbances of one signal over time, from a stream of random numbers of its own.
 class SignalErrors {
  public:
+  // by_chance: reflections that outdo the direct signal come by chance, as nobody knows the walls.
   SignalErrors(SatelliteId satellite, SignalCode signal, double multipath_sigma_m, bool moving,
-               std::uint64_t seed);
+               bool by_chance, std::uint64_t seed);
 
-  SignalDisturbance Step(double elevation_rad, double interval_s);
+  SignalDisturbance Step(double elevation_rad, const ReceivedPaths& paths, double interval_s);
 
  private:
   bool wide_;  // L5 and E5a: ten times the chip rate of L1 C/A
+  bool by_chance_;
   Random ionosphere_random_;
   Random random_;
   double antenna_db_;

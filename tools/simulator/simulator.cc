@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "core/base/units.h"
 #include "core/geo/time.h"
@@ -78,12 +79,22 @@ std::int64_t SystemTimeOf(System system, std::int64_t time_gps_ns) {
   }
 }
 
+double ChipLength(SignalCode signal) {
+  return kSpeedOfLight_mps / (signal.band == '5' ? 10.23e6 : 1.023e6);
+}
+
+SignalSurroundings SurroundingsOf(const Scenario& scenario) {
+  Result<SignalSurroundings> made = SignalSurroundings::Make(scenario.photography.scene.buildings);
+  return made ? std::move(*made) : SignalSurroundings();
+}
+
 double RoundedTo(double value, double step) { return std::round(value / step) * step; }
 
 }  // namespace
 
 Simulator::Simulator(const Scenario& scenario)
     : scenario_(scenario),
+      surroundings_(SurroundingsOf(scenario)),
       frame_(scenario.place),
       path_(scenario),
       satellites_(MakeConstellation(scenario)),
@@ -101,9 +112,9 @@ Simulator::Simulator(const Scenario& scenario)
       const double frequency_hz =
           CarrierFrequency(satellite.id.system, signal.band, satellite.glonass_channel)
               .value_or(kGpsL1_hz);
-      channels_.push_back(
-          {&satellite, signal, frequency_hz,
-           SignalErrors(satellite.id, signal, scenario.multipath_sigma_m, moving, scenario.seed)});
+      channels_.push_back({&satellite, signal, frequency_hz,
+                           SignalErrors(satellite.id, signal, scenario.multipath_sigma_m, moving,
+                                        surroundings_.empty(), scenario.seed)});
     }
   }
 }
@@ -170,7 +181,8 @@ Simulator::Sight Simulator::SightOf(const SimulatedSatellite& satellite) const {
   constexpr double kHalfStep_s = 0.05;
   const double since_start_s =
       1e-9 * (static_cast<double>(true_gps_ns_ - scenario_.start_gps_ns) + true_fraction_ns_);
-  const Eigen::Vector3d receiver = frame_.ToEcef(path_.At(since_start_s).position_in_enu);
+  const ReceiverState state = path_.At(since_start_s);
+  const Eigen::Vector3d receiver = frame_.ToEcef(state.position_in_enu);
   const Geodetic place = GeodeticFromEcef(receiver);
   Sight sight;
   sight.look = LookAnglesTo(satellite.At(true_gps_ns_, -0.075).position_in_ecef, receiver,
@@ -185,13 +197,19 @@ Simulator::Sight Simulator::SightOf(const SimulatedSatellite& satellite) const {
   const MappingFactors mapping = troposphere.Mapping(sight.look.elevation_rad);
   sight.troposphere_m = 1.002 * troposphere.zenith().hydrostatic_m * mapping.hydrostatic +
                         1.2 * troposphere.zenith().wet_m * mapping.wet;
+  sight.paths =
+      surroundings_.To(state.position_in_enu, state.velocity_in_enu,
+                       DirectionFromAngles(sight.look.azimuth_rad, sight.look.elevation_rad),
+                       kSpeedOfLight_mps / kGpsL1_hz);
   return sight;
 }
 
 void Simulator::Measure(const Sight& sight, Channel* channel, AndroidEpoch* raw) {
   const SimulatedSatellite& satellite = *channel->satellite;
+  const ReceivedPaths received =
+      Receive(sight.paths, kSpeedOfLight_mps / channel->frequency_hz, ChipLength(channel->signal));
   const SignalDisturbance disturbance =
-      channel->errors.Step(sight.look.elevation_rad, scenario_.interval_s);
+      channel->errors.Step(sight.look.elevation_rad, received, scenario_.interval_s);
   const double needed_dbhz = channel->tracked ? kLost_dbhz : kAcquired_dbhz;
   const bool above = sight.look.elevation_rad > scenario_.elevation_mask_deg * kRadiansPerDegree;
   channel->tracked = above && disturbance.cn0_dbhz > needed_dbhz;
@@ -226,7 +244,9 @@ void Simulator::Measure(const Sight& sight, Channel* channel, AndroidEpoch* raw)
       sight.rate_mps + 1e-9 * kSpeedOfLight_mps * drift_nsps_ + disturbance.rate_error_mps;
   m.pseudorange_rate_uncertainty_mps = disturbance.rate_sigma_mps;
 
-  const bool was_locked = channel->phase_locked;
+  // From the straight way to the one off a wall, or back, the phase does not carry on.
+  const bool was_locked = channel->phase_locked && channel->on_reflection == received.is_reflection;
+  channel->on_reflection = received.is_reflection;
   channel->phase_locked = disturbance.cn0_dbhz > kPhaseLocked_dbhz;
   constexpr std::int32_t kValid = 1, kReset = 2, kSlip = 4, kHalfCycleResolved = 8;
   if (channel->phase_locked && !was_locked) {
@@ -262,6 +282,7 @@ bool Simulator::Next(SimulatedEpoch* epoch) {
   epoch->receiver = path_.At(
       1e-9 * (static_cast<double>(true_gps_ns_ - scenario_.start_gps_ns) + true_fraction_ns_));
   epoch->raw.measurements.clear();
+  epoch->paths.clear();
   ReportClock(&epoch->raw.clock);
   const SimulatedSatellite* current = nullptr;
   Sight sight;
@@ -269,6 +290,9 @@ bool Simulator::Next(SimulatedEpoch* epoch) {
     if (channel.satellite != current) {
       current = channel.satellite;
       sight = SightOf(*current);
+      if (sight.look.elevation_rad > scenario_.elevation_mask_deg * kRadiansPerDegree) {
+        epoch->paths.push_back({current->id, sight.look, sight.paths});
+      }
     }
     if (sight.look.elevation_rad > 0.0) Measure(sight, &channel, &epoch->raw);
   }

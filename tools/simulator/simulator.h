@@ -11,6 +11,7 @@
 #include "tools/simulator/receiver_path.h"
 #include "tools/simulator/scenario.h"
 #include "tools/simulator/signal_errors.h"
+#include "tools/simulator/signal_paths.h"
 
 namespace lodemark {
 
@@ -19,10 +20,19 @@ struct SimulatedEpoch {
   std::int64_t true_gps_ns = 0;   // of the measurement, whole nanoseconds
   double true_fraction_ns = 0.0;  // to be added, 0 .. 1
   ReceiverState receiver;         // in the frame of Scenario::place
+  // Every satellite above the mask, tracked or not, on L1.
+  struct Path {
+    SatelliteId satellite;
+    LookAngles look;
+    SignalPaths paths;
+  };
+  std::vector<Path> paths;
 };
 
 class Simulator {
  public:
+  // Footprints that cannot be cut into convex parts let everything through; ScenarioFromJson takes
+  // none.
   explicit Simulator(const Scenario& scenario);
 
   // False once Scenario::epochs have been given.
@@ -43,6 +53,7 @@ class Simulator {
     SignalErrors errors;
     bool tracked = false;
     bool phase_locked = false;
+    bool on_reflection = false;
     double phase_origin_m = 0.0;
   };
 
@@ -52,6 +63,7 @@ class Simulator {
     double rate_mps = 0.0;
     LookAngles look;
     double troposphere_m = 0.0;
+    SignalPaths paths;  // for the wavelength of L1
   };
 
   void StepClock();
@@ -61,6 +73,7 @@ class Simulator {
   void Measure(const Sight& sight, Channel* channel, AndroidEpoch* raw);
 
   Scenario scenario_;
+  SignalSurroundings surroundings_;
   EnuFrame frame_;
   ReceiverPath path_;
   std::vector<SimulatedSatellite> satellites_;
