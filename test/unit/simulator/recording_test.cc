@@ -3,13 +3,22 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "core/logs/gnss_logger.h"
 #include "core/logs/rinex_navigation.h"
+#include "tools/simulator/simulator.h"
 
 namespace lodemark {
 namespace {
+
+std::string TextOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
 
 Scenario ShortScenario(const char* preset) {
   Scenario scenario = *PresetScenario(preset);
@@ -94,6 +103,58 @@ TEST(ScenarioFromJson, NamesWhatIsWrong) {
   EXPECT_NE(message(R"({"systems": "GX"})"), "");
   EXPECT_NE(message(R"({"waypoints_m": [[0]]})"), "");
   EXPECT_NE(message(R"({"interval_s": 0.05, "duration_s": 86400})"), "");
+}
+
+TEST(ScenarioFromJson, LeadsNobodyThroughWalls) {
+  const auto scenario = ScenarioFromJson("s.json", R"({
+      "waypoints_m": [[0, 0], [60, 0]], "speed_mps": 2, "pause_s": 0, "phone_height_m": 1.5,
+      "scene": {"buildings": [{"footprint_m": [[29, -5], [40, -5], [40, 5], [29, 5]]}]}})");
+  ASSERT_FALSE(scenario.ok());
+  // 29 m at 2 m/s, and some seconds to get going.
+  const std::string& message = scenario.error().message;
+  const std::string start = "s.json: waypoints_m leads into a building of the scene after ";
+  ASSERT_EQ(message.substr(0, start.size()), start) << message;
+  EXPECT_NEAR(std::stod(message.substr(start.size())), 16.0, 1.6);
+}
+
+// The recordings beside the scenarios are what these give.
+TEST(SampleLogs, AreWhatTheirScenariosGive) {
+  for (const std::string name : {"square", "street"}) {
+    const std::string folder = LODEMARK_SAMPLE_LOGS;
+    const std::string path = folder + "/scenarios/" + name + ".json";
+    const auto scenario = ScenarioFromJson(path, TextOf(path));
+    ASSERT_TRUE(scenario.ok()) << scenario.error().message;
+    for (const auto& [file, text] : MakeRecording(*scenario, {})) {
+      const std::string sample = TextOf(folder + "/" + name + "/" + file);
+      EXPECT_EQ(sample.size(), text.size()) << name << "/" << file;
+      EXPECT_TRUE(sample == text) << name << "/" << file;
+    }
+  }
+}
+
+// In the canyon two satellites are seen and others come off its walls; at its ends the sky is open.
+TEST(SampleLogs, TheStreetHasTwoSatellitesForHalfAMinute) {
+  const std::string path = std::string(LODEMARK_SAMPLE_LOGS) + "/scenarios/street.json";
+  const auto scenario = ScenarioFromJson(path, TextOf(path));
+  ASSERT_TRUE(scenario.ok()) << scenario.error().message;
+  Simulator simulator(*scenario);
+  SimulatedEpoch epoch;
+  int reflections = 0;
+  std::vector<int> seen;
+  while (simulator.Next(&epoch)) {
+    int direct = 0;
+    for (const SimulatedEpoch::Path& one : epoch.paths) {
+      direct += one.paths.direct > 0.4 ? 1 : 0;
+      reflections += one.paths.direct < 0.1 && one.paths.reflected > 0.1 ? 1 : 0;
+    }
+    seen.push_back(direct);
+  }
+  ASSERT_EQ(seen.size(), 60u);
+  EXPECT_GE(seen.front(), 6);
+  EXPECT_GE(seen.back(), 6);
+  EXPECT_GE(std::count(seen.begin(), seen.end(), 2), 30);
+  EXPECT_EQ(*std::min_element(seen.begin(), seen.end()), 2);
+  EXPECT_GT(reflections, 40);
 }
 
 }  // namespace
