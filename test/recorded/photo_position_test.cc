@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/resection/unknown_focal.h"
 #include "test/recorded/photo_scene.h"
 #include "test/recordings.h"
 
@@ -101,6 +102,42 @@ TEST(RecordedPhotos, AreLocatedInTheCastleCourtyardWithinCentimetres) {
   EXPECT_LT(known.mean_m, 0.018);
   EXPECT_LT(known.worst_m, 0.04);
   EXPECT_LT(Median(known.squares), 6.0);
+}
+
+// Two thirds of the lens's focal lengths: what somebody may guess of a camera.
+Lens ShortenedLens(const Lens& lens) {
+  LensParameters parameters = lens.parameters();
+  parameters.fx_px *= 0.67;
+  parameters.fy_px *= 0.67;
+  return *Lens::Create(parameters);
+}
+
+TEST(RecordedPhotos, TellTheFocalLengthTheyWereTakenWith) {
+  LODEMARK_NEEDS_RECORDING(kFountain);
+  LODEMARK_NEEDS_RECORDING(kCastle);
+  std::vector<double> squares;
+  for (const char* recording : {kFountain, kCastle}) {
+    const auto scene = ReadPhotoScene(RecordingPath(recording));
+    ASSERT_TRUE(scene);
+    for (const SurveyedPhoto& photo : scene->photos) {
+      if (!photo.is_query) continue;
+      const Located located = Locate(*scene->map, scene->lens, FeaturesOf(photo.path).features);
+      const Result<ResectedCamera> camera =
+          ResectWithFocal(located.first_sights, ShortenedLens(scene->lens), {}, {});
+      ASSERT_TRUE(camera.ok());
+      EXPECT_TRUE(IsAccepted(camera->pose)) << photo.path;
+      const double off_px = camera->focal_px - scene->lens.parameters().fx_px;
+      const double error_m = (camera->pose.centre_in_enu_m() - photo.camera_in_enu_m).norm();
+      std::printf("%s: focal length %+.2f px off (sigma %.2f px), place %.2f cm\n",
+                  photo.path.c_str() + photo.path.rfind('/') + 1, off_px, camera->focal_sigma_px,
+                  100.0 * error_m);
+      EXPECT_LT(std::abs(off_px), 0.005 * scene->lens.parameters().fx_px);
+      EXPECT_LT(error_m, 0.15);
+      squares.push_back(off_px * off_px / (camera->focal_sigma_px * camera->focal_sigma_px));
+    }
+  }
+  EXPECT_GE(squares.size(), 9U);
+  EXPECT_LT(Median(squares), 4.0);
 }
 
 // Files of a recording's images, every so many.

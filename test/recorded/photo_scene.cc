@@ -178,7 +178,8 @@ Located Locate(const FeatureMap& map, const Lens& lens, const Features& features
   const Result<std::vector<LandmarkMatch>> matches = LookUp(map, features, lens, {}, {});
   EXPECT_TRUE(matches.ok());
   if (!matches) return located;
-  const Result<ResectedPose> first = Resect(SightsOf(*matches), lens, {}, {});
+  located.first_sights = SightsOf(*matches);
+  const Result<ResectedPose> first = Resect(located.first_sights, lens, {}, {});
   EXPECT_TRUE(first.ok());
   if (!first) return located;
   located.first = located.pose = *first;

@@ -42,6 +42,7 @@ Lens UsualLens(int width_px, int height_px);
 // What `lodemark map query` does: look up in the whole map, resect, look up around where landmarks
 // must be, resect again.
 struct Located {
+  std::vector<LandmarkSight> first_sights;  // by descriptors alone
   ResectedPose first;
   ResectedPose pose;
 };
