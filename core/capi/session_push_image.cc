@@ -55,8 +55,8 @@ lodemark_status lodemark_session_use_map(lodemark_session* session, lodemark_map
   using namespace lodemark;
   if (session == nullptr) return Fail(LODEMARK_ERROR_INVALID_ARGUMENT, "session is NULL");
   return Guard([&] {
-    session->engine->UseMap(map == nullptr ? nullptr : map->map.get());
-    return lodemark_status{LODEMARK_OK};
+    const Status used = session->engine->UseMap(map == nullptr ? nullptr : map->map.get());
+    return used ? LODEMARK_OK : Fail(used.error());
   });
 }
 

@@ -38,6 +38,7 @@ class EpochSolver {
 
   SatelliteOrbits& orbits() { return orbits_; }
   IonosphereModel& ionosphere() { return ionosphere_; }
+  void UseSights(SightSource* sights) { model_.UseSights(sights); }
 
   // Fills all of *estimate but its times and the satellites seen, and one status per signal.
   void Solve(const ObservationEpoch& epoch, const PhotoPart& photo, SessionEstimate* estimate,

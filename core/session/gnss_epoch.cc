@@ -184,6 +184,7 @@ void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d&
     status.elevation_rad = look.elevation_rad;
     status.azimuth_rad = look.azimuth_rad;
     status.has_direction = true;
+    NoteSight(prepared, &status);
     if (look.elevation_rad < options_.elevation_mask_rad) {
       status.verdict = SatelliteVerdict::kLowElevation;
       continue;
@@ -212,6 +213,7 @@ void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d&
     range.zenith_delay_factor = air.wet_mapping;
     SignalQuality quality = QualityOf(signal, prepared, ionosphere_share);
     quality.rate_disagreement_m = rate_disagreements_m[prepared.index];
+    if (status.has_sight) quality.sight_probability = status.sight_probability;
     prepared.weight = weights.ErrorModel(prepared.clock_group, quality);
     range.error = prepared.weight.error;
     status.sigma_m = range.error.sigma_m;
@@ -221,6 +223,15 @@ void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d&
     ranges_.push_back(range);
   }
   if (combine) CombineBands(weights);
+}
+
+void GnssEpochModel::NoteSight(const PreparedSignal& prepared, SatelliteStatus* status) const {
+  if (sights_ == nullptr || !(prepared.elevation_rad > 0.0)) return;
+  const std::optional<double> probability = sights_->ProbabilityOfSight(
+      prepared.satellite_id, {prepared.azimuth_rad, prepared.elevation_rad},
+      kSpeedOfLight_mps / prepared.frequency_hz);
+  status->has_sight = probability.has_value();
+  status->sight_probability = probability.value_or(0.0);
 }
 
 SignalQuality GnssEpochModel::QualityOf(const SignalObservation& signal,

@@ -15,6 +15,7 @@
 #include "core/session/code_rate_check.h"
 #include "core/session/range_weights.h"
 #include "core/session/session.h"
+#include "core/session/sight_source.h"
 
 namespace lodemark {
 
@@ -69,6 +70,9 @@ class GnssEpochModel {
  public:
   explicit GnssEpochModel(const SessionOptions& options) : options_(options) {}
 
+  // Asked for the chance that each satellite is in plain sight; null: nobody.
+  void UseSights(SightSource* sights) { sights_ = sights; }
+
   // Finds orbits; signals that cannot be used get their verdict in *statuses (one per signal).
   void FindSatellites(const ObservationEpoch& epoch, const SatelliteOrbits& orbits,
                       std::vector<SatelliteStatus>* statuses);
@@ -95,6 +99,7 @@ class GnssEpochModel {
   void Forget() { groups_.Forget(); }
 
  private:
+  void NoteSight(const PreparedSignal& prepared, SatelliteStatus* status) const;
   SignalQuality QualityOf(const SignalObservation& signal, const PreparedSignal& prepared,
                           double ionosphere_share) const;
   void AddRate(const SignalObservation& signal, const PreparedSignal& prepared,
@@ -105,6 +110,7 @@ class GnssEpochModel {
   void CombineBands(const RangeWeights& weights);
 
   SessionOptions options_;
+  SightSource* sights_ = nullptr;
   ClockGroups groups_;
   std::vector<PreparedSignal> prepared_;
   std::vector<PreparedSignal> used_;

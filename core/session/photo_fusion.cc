@@ -8,6 +8,7 @@
 #include "core/base/units.h"
 #include "core/fusion/protection.h"
 #include "core/session/accuracy.h"
+#include "core/session/map_buildings.h"
 
 namespace lodemark {
 namespace {
@@ -22,6 +23,9 @@ constexpr std::int64_t kReach_ns = 3 * kSecond_ns / 2;
 constexpr std::int64_t kPriorLasts_ns = 30 * kSecond_ns;
 constexpr double kPriorSpeed_mps = 5.0;
 
+// How long a fix tells which walls are around.
+constexpr std::int64_t kSightsLast_ns = 3 * kSecond_ns;
+
 // Sigmas that all but the risk of the protection levels stay within.
 constexpr double kProtectionSigmas = 4.42;
 
@@ -30,10 +34,24 @@ constexpr double kProtectionSigmas = 4.42;
 PhotoFusion::PhotoFusion(Scheme scheme, TimeBase time_base)
     : scheme_(scheme), time_base_(time_base), queue_(kFrames) {}
 
-void PhotoFusion::UseMap(const FeatureMap* map) {
-  map_ = map;
+Status PhotoFusion::UseMap(const FeatureMap* map) {
+  map_ = nullptr;
   map_frame_.reset();
-  if (map != nullptr) undated_frame_ = FrameForFix(map->info(), std::nullopt);
+  sights_.Use({});
+  if (map == nullptr) return {};
+  Result<BuildingScene> buildings = BuildingsOf(*map);
+  if (!buildings) return buildings.error();
+  map_ = map;
+  undated_frame_ = FrameForFix(map->info(), std::nullopt);
+  sights_.Use(std::move(*buildings));
+  return {};
+}
+
+SightSource* PhotoFusion::SightsAt(std::int64_t time_ns, std::int64_t time_gps_ns,
+                                   EventLog* events) {
+  if (!sights_.has_buildings()) return nullptr;
+  sights_.Stand(FrameAt(time_gps_ns, events).frame, PredictedPlaceAt(time_ns));
+  return &sights_;
 }
 
 // Worked out once: within a recording the ground moves by micrometres.
@@ -72,6 +90,16 @@ std::optional<PlacePrior> PhotoFusion::PlaceAt(std::int64_t time_ns) const {
   return prior;
 }
 
+// The walls around a place need it better known than a look-up does: as long as a velocity holds.
+std::optional<PlacePrior> PhotoFusion::PredictedPlaceAt(std::int64_t time_ns) const {
+  if (!last_fix_ || std::abs(time_ns - last_fix_->time_ns) > kSightsLast_ns) return std::nullopt;
+  const Displacement moved = motion_.Between(last_fix_->time_ns, time_ns);
+  PlacePrior prior;
+  prior.position_in_ecef = last_fix_->position_in_ecef + moved.in_ecef_m;
+  prior.covariance_enu_m2 = last_fix_->covariance_enu_m2 + moved.covariance_enu_m2;
+  return prior;
+}
+
 void PhotoFusion::Look(EpochSolver* solver, SessionEstimate* estimate,
                        std::vector<LandmarkStatus>* landmarks, EventLog* events) {
   const CameraFrame& frame = queue_.front();
@@ -86,8 +114,10 @@ void PhotoFusion::Look(EpochSolver* solver, SessionEstimate* estimate,
   estimate->status = EstimateStatus::kTooFewSatellites;
   sighting_.reset();
   if (scheme_ != Scheme::kGnss && map_ != nullptr) {
-    Result<PhotoSighting> sighting =
-        Sight(*map_, FrameAt(estimate->time_gps_ns, events), frame, PlaceAt(time_ns));
+    const MapFrame& map_frame = FrameAt(estimate->time_gps_ns, events);
+    const std::optional<PlacePrior> place = PlaceAt(time_ns);
+    sights_.Stand(map_frame.frame, place);
+    Result<PhotoSighting> sighting = Sight(*map_, map_frame, frame, place, sights_);
     if (sighting) {
       sighting_ = std::move(*sighting);
     } else {
@@ -95,9 +125,21 @@ void PhotoFusion::Look(EpochSolver* solver, SessionEstimate* estimate,
     }
   }
   queue_.Pop();
-  if (!sighting_) return;
+  if (sighting_) EstimateAtSighting(solver, estimate, landmarks);
+}
 
-  // Estimated at the moment of the epoch, then carried to that of the photograph.
+void PhotoFusion::Take(PhotoSighting sighting, EpochSolver* solver, SessionEstimate* estimate,
+                       std::vector<LandmarkStatus>* landmarks) {
+  estimate->time_ns = sighting.time_ns;
+  estimate->status = EstimateStatus::kTooFewSatellites;
+  sighting_ = std::move(sighting);
+  EstimateAtSighting(solver, estimate, landmarks);
+}
+
+// Estimated at the moment of the epoch, then carried to that of the photograph.
+void PhotoFusion::EstimateAtSighting(EpochSolver* solver, SessionEstimate* estimate,
+                                     std::vector<LandmarkStatus>* landmarks) {
+  const std::int64_t time_ns = sighting_->time_ns;
   const bool with_epoch =
       has_epoch_ && std::abs(time_ns - epoch_ns_) <= kReach_ns && scheme_ != Scheme::kVision;
   const PhotoPart& part = PartAt(with_epoch ? epoch_ns_ : time_ns);

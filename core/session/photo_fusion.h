@@ -12,6 +12,7 @@
 #include "core/session/motion.h"
 #include "core/session/photo_sighting.h"
 #include "core/session/session.h"
+#include "core/session/sight_lines.h"
 #include "core/session/sighting_witness.h"
 
 namespace lodemark {
@@ -20,15 +21,24 @@ class PhotoFusion {
  public:
   PhotoFusion(Scheme scheme, TimeBase time_base);
 
-  void UseMap(const FeatureMap* map);
+  // Fails, and uses none, if the map's buildings are damaged.
+  Status UseMap(const FeatureMap* map);
   Status Push(const CameraFrame& frame);
   std::size_t queued() const { return queue_.count(); }
   std::int64_t next_time_ns() const { return queue_.front().time_ns; }  // where one is queued
+
+  // What the map's buildings leave in sight at a time, from where the receiver must be by then;
+  // null if the map has none.
+  SightSource* SightsAt(std::int64_t time_ns, std::int64_t time_gps_ns, EventLog* events);
 
   // Looks the next photograph up and estimates where it was taken, with the last epoch where that
   // is near in time.
   void Look(EpochSolver* solver, SessionEstimate* estimate, std::vector<LandmarkStatus>* landmarks,
             EventLog* events);
+
+  // The same for one whose landmarks were found otherwise.
+  void Take(PhotoSighting sighting, EpochSolver* solver, SessionEstimate* estimate,
+            std::vector<LandmarkStatus>* landmarks);
 
   // What the latest photograph gives an epoch of the time; nothing where none is near.
   const PhotoPart& PartAt(std::int64_t time_ns);
@@ -40,7 +50,10 @@ class PhotoFusion {
   void Forget();
 
  private:
+  void EstimateAtSighting(EpochSolver* solver, SessionEstimate* estimate,
+                          std::vector<LandmarkStatus>* landmarks);
   std::optional<PlacePrior> PlaceAt(std::int64_t time_ns) const;
+  std::optional<PlacePrior> PredictedPlaceAt(std::int64_t time_ns) const;
   const MapFrame& FrameAt(std::int64_t time_gps_ns, EventLog* events);
 
   Scheme scheme_;
@@ -48,6 +61,7 @@ class PhotoFusion {
   const FeatureMap* map_ = nullptr;
   std::optional<MapFrame> map_frame_;  // once the date is known
   MapFrame undated_frame_{EnuFrame(Geodetic{}), 0.0, {}};
+  SightLines sights_;
   FrameQueue queue_;
   std::optional<PhotoSighting> sighting_;  // the latest
   bool sighting_near_ = false;             // of the moment of the last part

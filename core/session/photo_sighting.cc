@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/session/photo_position.h"
+#include "core/session/sight_lines.h"
 
 namespace lodemark {
 namespace {
@@ -23,7 +24,8 @@ ViewPrior ViewFrom(const PlacePrior& place, const CameraFrame& frame, const EnuF
 }  // namespace
 
 Result<PhotoSighting> Sight(const FeatureMap& map, const MapFrame& map_frame,
-                            const CameraFrame& frame, const std::optional<PlacePrior>& prior) {
+                            const CameraFrame& frame, const std::optional<PlacePrior>& prior,
+                            const SightLines& sights) {
   PhotoSighting sighting(frame.lens, map_frame.frame);
   sighting.frame_sigma_m = map_frame.sigma_m;
   sighting.time_ns = frame.time_ns;
@@ -38,7 +40,14 @@ Result<PhotoSighting> Sight(const FeatureMap& map, const MapFrame& map_frame,
 
   PhotoPrior photo;
   photo.resection.gravity = frame.gravity;
-  if (prior) photo.view = ViewFrom(*prior, frame, sighting.frame);
+  if (prior) {
+    photo.view = ViewFrom(*prior, frame, sighting.frame);
+    if (sights.has_buildings()) {
+      photo.view->may_be_seen = [&sights](const Landmark& landmark) {
+        return sights.MayBeSeen(landmark.position_in_enu_m);
+      };
+    }
+  }
   Result<PhotoPosition> found = LocatePhoto(map, frame.image, frame.lens, photo, {});
   if (!found) return found.error();
   const auto has_pose = [](const PhotoPosition& position) {

@@ -19,6 +19,8 @@
 
 namespace lodemark {
 
+class SightLines;
+
 struct PhotoSighting {
   PhotoSighting(const Lens& its_lens, const EnuFrame& map_frame)
       : lens(its_lens), frame(map_frame) {}
@@ -49,8 +51,10 @@ struct PlacePrior {
 
 // Looks the photograph up, where it can be by the prior, and resects it. The prior narrows what is
 // asked of the map and nothing else: what comes out does not repeat it. A photograph of elsewhere
-// is no error. image: that of the frame.
+// is no error. image: that of the frame. What walls hide from the prior is not looked up either;
+// sights: standing there, or saying nothing.
 Result<PhotoSighting> Sight(const FeatureMap& map, const MapFrame& map_frame,
-                            const CameraFrame& frame, const std::optional<PlacePrior>& prior);
+                            const CameraFrame& frame, const std::optional<PlacePrior>& prior,
+                            const SightLines& sights);
 
 }  // namespace lodemark

@@ -38,6 +38,11 @@ constexpr double kFewestLate = 0.01;
 constexpr double kMostLate = 0.9;
 constexpr double kMultipathReported = 0.2;  // added where the receiver reports multipath
 
+// How often a map of buildings is wrong about one path: new houses, trees, its own errors. The odds
+// of a reflection by the deficit alone are those of a receiver that knows no map, to which that
+// share of signals comes by longer ways too.
+constexpr double kMapWrong = 0.15;
+
 // Mean extra path of a reflection: grows with the deficit, as long ways cost power.
 constexpr double kLateScaleAtNoDeficit_m = 3.0;
 constexpr double kLateScalePerDb_m = 1.8;
@@ -68,6 +73,15 @@ constexpr double kSmallestLawVariance_m2 = 1e-4;
 double Obliquity(double elevation_rad) {
   const double sine = std::max(std::sin(elevation_rad), kSmallestSine);
   return 1.0 / (sine * sine);
+}
+
+// What a map makes of the odds of a reflection: they are multiplied by those it states over those
+// without it, after Bayes, as the strength of a signal and the walls around the receiver are two
+// witnesses. It is believed so far as it is right: 1 where the path is free for sure, and 32 where
+// it is blocked for sure.
+double OddsFactor(double sight_probability) {
+  const double blocked = kMapWrong + (1.0 - 2.0 * kMapWrong) * (1.0 - sight_probability);
+  return blocked / (1.0 - blocked) * (1.0 - kMapWrong) / kMapWrong;
 }
 
 }  // namespace
@@ -117,9 +131,10 @@ WeightedModel RangeWeights::ErrorModel(int clock_group, const SignalQuality& qua
 
   const double deficit_db =
       std::max(0.0, std::max(group.strongest_dbhz, kLowestReference_dbhz) - cn0_dbhz);
-  const double odds = std::exp((deficit_db - kDeficitMiddle_db) / kDeficitWidth_db) *
-                      (surveying_ ? kSurveyLateShare : 1.0) * (kLatePriorCount + late_found_) /
-                      (kLatePriorCount + late_expected_);
+  double odds = std::exp((deficit_db - kDeficitMiddle_db) / kDeficitWidth_db) *
+                (surveying_ ? kSurveyLateShare : 1.0) * (kLatePriorCount + late_found_) /
+                (kLatePriorCount + late_expected_);
+  if (quality.sight_probability < 1.0) odds *= OddsFactor(quality.sight_probability);
   model.error.late_probability = std::clamp(odds / (1.0 + odds), kFewestLate, kMostLate);
   if (quality.multipath_reported) {
     model.error.late_probability =

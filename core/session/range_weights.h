@@ -21,6 +21,8 @@ struct SignalQuality {
   double rate_disagreement_m = 0.0;  // code against Doppler, 0 if unknown
   bool wideband = false;             // a code of ten times the C/A rate
   bool multipath_reported = false;
+  // That the straight path is free, as a map of buildings has it; 1 without one.
+  double sight_probability = 1.0;
 };
 
 // An error model with the parts it was made of.

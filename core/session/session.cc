@@ -196,7 +196,7 @@ Status Session::PushNavigationMessage(std::int32_t type, std::int32_t svid, std:
   return {};
 }
 
-void Session::UseMap(const FeatureMap* map) { impl_->photos.UseMap(map); }
+Status Session::UseMap(const FeatureMap* map) { return impl_->photos.UseMap(map); }
 
 Status Session::PushFrame(const CameraFrame& frame) { return impl_->photos.Push(frame); }
 
@@ -261,6 +261,7 @@ void Session::Impl::Process(QueuedEpoch* queued) {
     events.NoteDiscontinuity();
     solver.ForgetRanges();
   }
+  solver.UseSights(photos.SightsAt(queued->time_ns, epoch.time_gps_ns, &events));
   const PhotoPart& photo = photos.PartAt(queued->time_ns);
   solver.Solve(epoch, photo, &estimate, &statuses);
   photos.Judge(solver, &estimate, &landmarks);

@@ -178,6 +178,7 @@ struct SatelliteStatus {
   bool has_residual = false;
   bool has_direction = false;
   bool has_rate_residual = false;
+  bool has_sight = false;   // sight_probability
   double residual_m = 0.0;  // observed minus computed code range
   double sigma_m = 0.0;     // stated for the code range
   double weight = 0.0;      // 0..1, share of full weight it kept
@@ -185,6 +186,7 @@ struct SatelliteStatus {
   double azimuth_rad = 0.0;
   double cn0_dbhz = 0.0;
   double range_rate_residual_mps = 0.0;
+  double sight_probability = 0.0;  // that no building of the map stands in the way
 };
 
 enum class EventKind : std::uint8_t {
@@ -224,8 +226,10 @@ class Session {
   Status PushNavigationMessage(std::int32_t type, std::int32_t svid, std::int32_t message_id,
                                std::int32_t submessage_id, std::span<const std::uint8_t> bytes);
 
-  // The map that photographs are looked up in; it must stay as long as it is used. Null: none.
-  void UseMap(const FeatureMap* map);
+  // The map that photographs are looked up in, and whose buildings stand in the way of satellites
+  // and landmarks; it must stay as long as it is used. Null: none. Fails, and uses none, if its
+  // buildings are damaged.
+  Status UseMap(const FeatureMap* map);
   // Copies the image. Fails with kQueueFull when Process must be called first: few photographs may
   // wait. kOutOfOrder without a map.
   Status PushFrame(const CameraFrame& frame);

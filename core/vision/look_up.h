@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct ViewPrior {
   std::optional<double> heading_rad;
   double heading_sigma_rad = 0.0;
   double farthest_m = 1000.0;  // landmarks beyond are not asked
+  // Others are hidden, by walls for example; empty: all are looked for.
+  std::function<bool(const Landmark& landmark)> may_be_seen;
 };
 
 struct LookUpOptions {

@@ -103,6 +103,7 @@ Result<ViewScope> ViewScope::Of(const FeatureMap& map, const Lens& lens, const V
         if (off_rad > reach_rad + std::asin(slack_m / distance_m)) continue;
       }
     }
+    if (prior.may_be_seen && !prior.may_be_seen(landmark)) continue;
     scope->Admit(landmark);
   }
   return scope;

@@ -40,6 +40,33 @@ TEST(RangeWeights, TrustStrongHighSignalsMost) {
   EXPECT_GT(weights.ErrorModel(0, reflected).error.late_probability, best.late_probability);
 }
 
+TEST(RangeWeights, DoubtSignalsFromBehindAWallWithoutGivingThemUp) {
+  RangeWeights weights{SessionOptions()};
+  weights.NoteStrength(0, 45.0);
+  const auto late = [&](double sight_probability, double cn0_dbhz) {
+    SignalQuality quality = Strong();
+    quality.sight_probability = sight_probability;
+    quality.cn0_dbhz = cn0_dbhz;
+    return weights.ErrorModel(0, quality).error.late_probability;
+  };
+  // A strong signal is doubted even so, a weak one more; none for certain.
+  EXPECT_LT(late(1.0, 45.0), 0.02);
+  EXPECT_GT(late(0.0, 45.0), 0.15);
+  EXPECT_GT(late(0.0, 37.0), 0.6);
+  EXPECT_LE(late(0.0, 20.0), 0.9);
+  double before = 0.0;
+  for (const double probability : {1.0, 0.9, 0.5, 0.1, 0.0}) {
+    EXPECT_GE(late(probability, 40.0), before);
+    before = late(probability, 40.0);
+  }
+  // As Bayes has it: the odds of two witnesses multiply.
+  const auto odds = [&](double sight, double cn0_dbhz) {
+    const double probability = late(sight, cn0_dbhz);
+    return probability / (1.0 - probability);
+  };
+  EXPECT_NEAR(odds(0.5, 35.0) / odds(1.0, 35.0), 0.85 / 0.15, 1e-6);
+}
+
 TEST(RangeWeights, BelieveHalfOfAReportedUncertaintyWhereItIsMore) {
   RangeWeights weights{SessionOptions()};
   SignalQuality quality = Strong();

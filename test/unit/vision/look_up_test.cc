@@ -187,6 +187,20 @@ TEST(LookUp, LeavesOutWhatIsTooFar) {
   EXPECT_GT(Right(Find(*map, street.features, prior)), 150);
 }
 
+TEST(LookUp, LeavesOutWhatIsHidden) {
+  Street street(kSift);
+  street.AddTwins([](const Eigen::Vector3d& place) -> Eigen::Vector3d { return 3.5 * place; },
+                  {0, 0, 0});
+  const auto map = street.draft.Open();
+  ViewPrior prior = AtOrigin();
+  prior.may_be_seen = [](const Landmark& landmark) {
+    return landmark.position_in_enu_m.norm() < 51.0;  // twins are at 52 m and more
+  };
+  EXPECT_GT(Right(Find(*map, street.features, prior)), 150);
+  prior.may_be_seen = [](const Landmark&) { return false; };
+  EXPECT_TRUE(Find(*map, street.features, prior).empty());
+}
+
 TEST(LookUp, LeavesOutWhatWasSeenFromTheOtherSide) {
   Street street(kSift);
   street.AddTwins(
