@@ -73,6 +73,19 @@ std::optional<Geodetic> OriginOf(const std::vector<RunFolder>& runs,
   return std::nullopt;
 }
 
+// Half-widths of the middle 68 % of east and north. Where the covariance is unknown, the 68 %
+// radius stands for both.
+std::optional<std::array<double, 2>> HalfWidthsOf(const TrajectoryPoint& epoch) {
+  constexpr double kHalfWidth68_sigma = 0.99446;
+  const auto& covariance = epoch.covariance_enu_m2;
+  if (covariance[0] && covariance[2] && *covariance[0] >= 0.0 && *covariance[2] >= 0.0) {
+    return std::array{kHalfWidth68_sigma * std::sqrt(*covariance[0]),
+                      kHalfWidth68_sigma * std::sqrt(*covariance[2])};
+  }
+  if (epoch.accuracy_m) return std::array{*epoch.accuracy_m, *epoch.accuracy_m};
+  return std::nullopt;
+}
+
 ReportEpoch DrawnEpoch(const TrajectoryPoint& epoch, const EpochError* error, const EnuFrame& frame,
                        std::int64_t start_ns) {
   ReportEpoch drawn;
@@ -96,12 +109,7 @@ ReportEpoch DrawnEpoch(const TrajectoryPoint& epoch, const EpochError* error, co
   }
   drawn.protection_level_m = epoch.protection_level_m;
   drawn.vertical_protection_level_m = epoch.vertical_protection_level_m;
-  // The middle 68 % of each axis.
-  constexpr double kHalfWidth68_sigma = 0.99446;
-  if (covariance[0] && covariance[2] && *covariance[0] >= 0.0 && *covariance[2] >= 0.0) {
-    drawn.half_width_m = std::array{kHalfWidth68_sigma * std::sqrt(*covariance[0]),
-                                    kHalfWidth68_sigma * std::sqrt(*covariance[2])};
-  }
+  drawn.half_width_m = HalfWidthsOf(epoch);
   if (error != nullptr) {
     drawn.nees = error->nees;
     drawn.error_m = std::array{error->east_m, error->north_m};
@@ -169,6 +177,31 @@ std::vector<double> QuantilesOf(std::vector<double> values) {
         SortedQuantile(values, static_cast<double>(i) / static_cast<double>(kQuantiles)));
   }
   return quantiles;
+}
+
+// Of all epochs with an error, how many have it within what the axis states.
+std::array<std::optional<double>, 3> SharesWithinHalfWidths(const RunFolder& run,
+                                                            const RunErrors& errors) {
+  std::array<Share, 3> shares;
+  std::size_t next = 0;  // errors come in the order of the answered epochs
+  for (const TrajectoryPoint& epoch : run.epochs) {
+    if (next == errors.errors.size()) break;
+    const EpochError& error = errors.errors[next];
+    if (!epoch.has_position() || error.time_gps_ns != epoch.time_gps_ns) continue;
+    ++next;
+    if (const auto widths_m = HalfWidthsOf(epoch)) {
+      shares[0].Add(std::abs(error.east_m) <= (*widths_m)[0]);
+      shares[1].Add(std::abs(error.north_m) <= (*widths_m)[1]);
+    }
+    if (epoch.vertical_accuracy_m && error.up_m) {
+      shares[2].Add(std::abs(*error.up_m) <= *epoch.vertical_accuracy_m);
+    }
+  }
+  std::array<std::optional<double>, 3> values;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (shares[axis].of > 0) values[axis] = shares[axis].value();
+  }
+  return values;
 }
 
 // What is told of all errors, also of those that are not drawn.
@@ -309,6 +342,7 @@ Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
     drawn.epochs = DrawnEpochs(run, errors, frame, start_ns);
     if (errors) {
       AddErrorShares(*errors, compared.back().statistics, &drawn);
+      drawn.within_half_width = SharesWithinHalfWidths(run, *errors);
       all_errors.push_back(std::move(*errors));
     }
     const Status signals = GatherSignals(run, start_ns, end_ns, &drawn, &content.remarks);

@@ -32,8 +32,8 @@ struct ReportEpoch {
   double east_m = 0.0;
   double north_m = 0.0;
   double up_m = 0.0;
-  std::optional<double> accuracy_m;           // 68 % radius
-  std::optional<double> vertical_accuracy_m;  // 68 % half-width
+  std::optional<double> accuracy_m;                   // 68 % radius
+  std::optional<double> vertical_accuracy_m;          // 68 % half-width
   std::optional<std::array<double, 2>> half_width_m;  // of the middle 68 %: east, north
   std::optional<ReportEllipse> ellipse;
   std::optional<double> protection_level_m;
@@ -77,6 +77,8 @@ struct ReportRun {
   // Share of the stated horizontal distribution that is nearer than the truth, at the same steps;
   // evenly spread if the stated one is honest.
   std::vector<double> chance_quantiles;
+  // Shares of epochs within the middle 68 % of each axis: east, north, up.
+  std::array<std::optional<double>, 3> within_half_width;
   std::optional<double> within_accuracy;  // share inside the stated 68 % radius
   std::optional<double> mean_nees;
   std::optional<double> nees_in_band;  // share within the middle 95 % of chi-square

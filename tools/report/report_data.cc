@@ -133,6 +133,8 @@ void AppendRun(const ReportRun& run, std::string* json) {
   *json += ',';
   AppendColumn(
       "chance", run.chance_quantiles, 1e3, [](double value) { return Number(value); }, json);
+  *json += ',';
+  AppendColumn("withinAxes", run.within_half_width, 1e3, [](Number share) { return share; }, json);
   *json += ",\"within\":";
   AppendScaled(run.within_accuracy, 1e3, json);
   *json += ",\"meanNees\":";

@@ -10,8 +10,6 @@ data.runs.forEach((run, index) => {
   run.t = column(run.t, 1e-3);
   for (const name of ['e', 'n', 'u', 'acc', 'vacc', 'ee', 'en', 'eu', 'we', 'wn', 'pl', 'vpl', 'nees', 'cdf']) run[name] = column(run[name], 1e-2);
   run.chance = column(run.chance, 1e-3);
-  // Where the covariance is unknown, the 68 % radius stands for both axes.
-  for (const name of ['we', 'wn']) run[name] = run[name].map((width, i) => Number.isFinite(width) ? width : run.acc[i]);
   run.used = column(run.used, 1);
   run.span *= 1e-3;
   for (const of of run.sights) for (const name of ['rx', 'ry']) of[name] = column(of[name], 1e-2);
@@ -20,6 +18,8 @@ data.runs.forEach((run, index) => {
 });
 for (const place of [data.scene.landmarks, ...data.scene.buildings]) for (const name of ['e', 'n']) place[name] = column(place[name], 1e-2);
 for (const photo of data.scene.photos) photo.t = photo.t === null ? NaN : photo.t * 1e-3;
+// Of long runs not every epoch is drawn.
+const sparse = data.runs.some(run => run.count > run.t.length) ? ' Of every stretch of epochs the worst is drawn.' : '';
 const hasErrors = data.runs.some(run => run.hasErrors);
 const span = Math.max(1e-3, ...data.runs.map(run => run.span));
 
@@ -125,7 +125,7 @@ const runShapes = [
 ];
 function runPoints(run, points, r) {
   const shape = runShapes[run.index % 5];
-  return svg('path', {d: points.map(([x, y]) => shape(tenths(x), tenths(y), r)).join(''), fill: run.color, 'fill-opacity': 0.7, stroke: 'var(--card)', 'stroke-width': 0.6});
+  return svg('path', {d: points.map(([x, y]) => shape(tenths(x), tenths(y), r)).join(''), fill: run.color, 'fill-opacity': 0.7, stroke: points.length > 300 ? 'none' : 'var(--card)', 'stroke-width': 0.6});
 }
 function runShapeKey(run) {
   return element('span', {class: 'key'}, svg('svg', {class: 'mark', viewBox: '0 0 14 14', 'aria-hidden': 'true'}, runPoints(run, [[7, 7]], 4.5)), run.name);

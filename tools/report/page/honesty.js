@@ -10,7 +10,7 @@ function drawHonesty() {
 }
 
 function drawNees() {
-  const section = card('half', 'NEES', 'Squared 3D error in units of its stated covariance: 3 on average if that is honest, 95 % inside the band.');
+  const section = card('half', 'NEES', 'Squared 3D error in units of its stated covariance: 3 on average if that is honest, 95 % inside the band.' + sparse);
   const holder = element('div');
   section.append(element('div', {class: 'bar'}, runButtons(runShapeKey)), holder, honestyTable());
   const all = data.runs.flatMap(run => run.nees).filter(v => v > 0);

@@ -12,7 +12,7 @@ function drawStanford(title, level, errorsOf) {
   });
   const all = points.flat();
   if (!all.length) return;
-  const section = card('half', title, 'A point per epoch. Above the line the protection level held; below it, in the hatched part, the error was larger.');
+  const section = card('half', title, 'A point per epoch. Above the line the protection level held; below it, in the hatched part, the error was larger.' + sparse);
   const holder = element('div'), summary = element('p', {class: 'readout'});
   section.append(element('div', {class: 'bar'}, runButtons(runShapeKey)), holder, summary);
 
@@ -23,7 +23,7 @@ function drawStanford(title, level, errorsOf) {
     const mine = points[run.index], beyond = mine.filter(([error, stated]) => error > stated).length;
     return `${data.runs.length > 1 ? run.name + ': ' : ''}${beyond} of ${mine.length} beyond`;
   });
-  const drawnOnly = data.runs.some(run => run.count > run.t.length) ? ' Of the epochs drawn; the table counts all.' : '';
+  const drawnOnly = sparse && ', of the epochs drawn; the table counts all.';
   summary.textContent = texts.join('  ·  ') + drawnOnly;
 
   drawIn(holder, width => {

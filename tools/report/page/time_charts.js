@@ -1,8 +1,8 @@
 // Errors over time with the stated accuracy behind them, and their distribution.
 function drawErrors() {
   const section = card('', hasErrors ? 'Error over time' : 'Position over time',
-    hasErrors ? 'Estimate minus truth, in metres. The band is what each estimate states of itself and should hold 68 % of the line; how much it held stands beside it. Grey: no answer.'
-              : 'Around the middle of the track. The band is the stated accuracy (68 %). Grey: no answer.');
+    hasErrors ? 'Estimate minus truth, in metres. The band is what each estimate states of itself and should hold 68 % of the line; how much it held stands beside it. Grey: no answer.' + sparse
+              : 'Around the middle of the track. The band is the stated accuracy (68 %). Grey: no answer.' + sparse);
   const bar = element('div', {class: 'bar'}, runButtons());
   const holder = element('div');
   section.append(bar, holder);
@@ -11,9 +11,9 @@ function drawErrors() {
   const middle = {};
   for (const name of ['e', 'n', 'u']) middle[name] = quantile(data.runs.flatMap(run => run[name]), 0.5);
   const panels = [
-    {label: 'East', error: 'ee', position: 'e', accuracy: 'we'},
-    {label: 'North', error: 'en', position: 'n', accuracy: 'wn'},
-    {label: 'Up', error: 'eu', position: 'u', accuracy: 'vacc'},
+    {label: 'East', error: 'ee', position: 'e', axis: 0, accuracy: 'we'},
+    {label: 'North', error: 'en', position: 'n', axis: 1, accuracy: 'wn'},
+    {label: 'Up', error: 'eu', position: 'u', axis: 2, accuracy: 'vacc'},
   ];
   const values = (run, panel) => hasErrors ? run[panel.error] : run[panel.position].map(v => v - middle[panel.position]);
   const shown = panels.filter(panel => data.runs.some(run => values(run, panel).some(Number.isFinite)));
@@ -83,9 +83,10 @@ function drawPanel(panel, top, tall, width, left, right, x, runs, values) {
   if (hasErrors) {
     const held = svg('text', {class: 'halo', x: width - right - 6, y: top + 13, 'text-anchor': 'end'});
     for (const run of runs) {
-      const v = values(run, panel), of = v.map((value, i) => Math.abs(value) / run[panel.accuracy][i]).filter(Number.isFinite);
-      if (of.length) held.append(svg('tspan', {dx: 10, fill: run.color}, `${runs.length > 1 ? run.name + ' ' : ''}${Math.round(100 * of.filter(share => share <= 1).length / of.length)} % inside`));
+      const share = run.withinAxes[panel.axis];
+      if (share !== null) held.append(svg('tspan', {dx: 10, fill: run.color}, `${runs.length > 1 && width >= 560 ? run.name + ' ' : ''}${Math.round(share / 10)} %`));
     }
+    if (held.childNodes.length) held.append(' inside');
     group.append(held);
   }
   return group;
