@@ -14,7 +14,7 @@ function drawNees() {
   const holder = element('div');
   section.append(element('div', {class: 'bar'}, runButtons(runShapeKey)), holder, honestyTable());
   const all = data.runs.flatMap(run => run.nees).filter(v => v > 0);
-  const low = Math.min(-1, Math.max(-3, Math.floor(Math.log10(quantile(all, 0.01) || 0.1)))), high = Math.max(2, Math.min(6, Math.ceil(Math.log10(Math.max(1, ...all)))));
+  const low = Math.min(-1, Math.max(-3, Math.floor(Math.log10(quantile(all, 0.01) || 0.1)))), high = Math.max(2, Math.min(6, Math.ceil(Math.log10(quantile([1, ...all], 1)))));
   drawIn(holder, width => {
     const left = 46, right = 8, top = 8, bottom = 24, height = 300;
     const x = t => left + t / span * (width - left - right);

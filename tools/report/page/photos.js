@@ -40,7 +40,10 @@ function drawPhotos() {
       const by = {ArrowLeft: -1, ArrowRight: 1, Home: -photos.length, End: photos.length}[event.key];
       if (by) { event.preventDefault(); choose(at + by); holder.firstChild.focus(); }
     }));
-    list.replaceChildren(photoTable(photos, sightsOf, at, choose, run().name));
+    list.replaceChildren(photoTable(photos, sightsOf, at, index => {
+      choose(index);
+      list.querySelector('[aria-current]').focus({preventScroll: true});
+    }, run().name));
   }
   drawIn(holder, now => { width = now; redraw(); });
 }

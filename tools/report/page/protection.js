@@ -18,7 +18,7 @@ function drawStanford(title, level, errorsOf) {
 
   // Decades that hold all but the smallest errors, which stay on the edge.
   const low = Math.max(-2, Math.floor(Math.log10(Math.max(1e-9, quantile(all.map(pair => Math.min(...pair)), 0.02)))));
-  const high = Math.max(low + 1, Math.ceil(Math.log10(Math.max(...all.map(pair => Math.max(...pair))))));
+  const high = Math.max(low + 1, Math.ceil(Math.log10(quantile(all.map(pair => Math.max(...pair)), 1))));
   const texts = data.runs.filter((_, k) => points[k].length).map(run => {
     const mine = points[run.index], beyond = mine.filter(([error, stated]) => error > stated).length;
     return `${data.runs.length > 1 ? run.name + ': ' : ''}${beyond} of ${mine.length} beyond`;
