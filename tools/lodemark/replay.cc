@@ -227,10 +227,10 @@ int RunReplay(const ReplayOptions& options) {
   if (!orbits.ok()) return ReportError(orbits.error());
 
   std::optional<PhotoSource> photos;
-  if (!options.request.map.empty() && SchemeOf(options) != "gnss") {
+  if (!options.request.map.empty()) {
     const Status used = session->UseMap(options.request.map);
     if (!used.ok()) return ReportError(used.error());
-    if (!inputs->photos.list.empty()) {
+    if (!inputs->photos.list.empty() && SchemeOf(options) != "gnss") {
       Result<PhotoSource> opened = PhotoSource::Open(inputs->photos);
       if (!opened) return ReportError(opened.error());
       photos = std::move(*opened);

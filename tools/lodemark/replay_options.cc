@@ -62,7 +62,9 @@ void DeclareReplayOptions(CLI::App& command, ReplayOptions* options) {
   command.add_option("--sp3", request.precise_orbits, "Precise orbits and clocks")->group(files);
 
   const std::string estimation = "Estimation";
-  command.add_option("--map", request.map, "Map to look the recording's photographs up in")
+  command
+      .add_option("--map", request.map,
+                  "Map to look photographs up in, whose buildings hide satellites")
       ->group(estimation);
   command
       .add_option("--scheme", options->scheme,
