@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
+#include "core/fusion/point_modes.h"
 #include "core/fusion/protection.h"
 #include "core/fusion/range_error.h"
 
@@ -22,14 +22,6 @@ constexpr double kDoubtful = 0.5;
 // would: the covariance grows by this much times their share.
 constexpr double kReflectionsAlike = 3.0;
 
-// Rows more than expected that noise does not explain, beyond which the approach is in doubt, and
-// how many of the rows it hangs on are then left out in turn.
-constexpr double kSurprising = 1.5;
-constexpr std::size_t kSuspects = 3;
-
-constexpr double kConverged_m = 1e-4;
-constexpr double kSmallGain = 1e-6;  // of -log density, with a step of centimetres
-
 // Ranges, in sum of probabilities, that must fit the error model beyond those that determine the
 // unknowns, as far as there are more: any three spheres and a clock meet somewhere. The slack is
 // for what even good ranges lack to certainty.
@@ -43,177 +35,6 @@ constexpr double kFewestOrdinary = 2.0;
 
 // What a statement about the place fixes no better it does not know.
 constexpr double kUnknownPlace_m = 1e3;
-
-// Cauchy weights whose width shrinks step by step (graduated non-convexity), late errors held
-// more suspect than early ones.
-double GraduatedWeight(double residual_m, double sigma_m, double width) {
-  const double side = residual_m > 0.0 ? 0.7 : 1.3;
-  const double u = residual_m / (side * width * sigma_m);
-  return 1.0 / (sigma_m * sigma_m * (1.0 + u * u));
-}
-
-double Cost(const PointProblem& problem) {
-  double cost = problem.PriorCost();
-  for (const PointProblem::Row& row : problem.rows()) {
-    cost -= std::log(RangeErrorDensity(row.error, problem.Residual(row)));
-  }
-  return cost;
-}
-
-// Normal equations under the full error model at the present state. The weight of a row is its
-// information as ordinary noise; a floor keeps the step bounded where all rows are doubtful.
-void ModelNormals(const PointProblem& problem, PointMatrix* normal, PointVector* right) {
-  constexpr double kFloor = 0.05;
-  for (const PointProblem::Row& row : problem.rows()) {
-    const RangeErrorTerms terms = EvaluateRangeError(row.error, problem.Residual(row));
-    const double information = 1.0 / (row.error.sigma_m * row.error.sigma_m);
-    problem.Accumulate(row, information * std::max(terms.core_share, kFloor), terms.slope_pm,
-                       normal, right);
-  }
-  problem.AccumulatePriors(normal, right);
-}
-
-struct Normals {
-  explicit Normals(int unknowns)
-      : matrix(PointMatrix::Zero(unknowns, unknowns)), right(PointVector::Zero(unknowns)) {}
-
-  // False if the geometry leaves an unknown without support.
-  bool Solve(PointVector* step) {
-    const Eigen::LLT<PointMatrix, Eigen::Upper> factor(matrix);
-    if (factor.info() != Eigen::Success) return false;
-    *step = factor.solve(right);
-    return step->allFinite();
-  }
-
-  PointMatrix matrix;
-  PointVector right;
-};
-
-// Least squares from far away, then with shrinking kernels. False if there is no solution.
-// left_out: a row that is not heard, or null.
-bool Approach(PointProblem* problem, bool robust, const PointProblem::Row* left_out) {
-  const auto solve = [&](double width) {
-    Normals normals(problem->unknowns());
-    for (const PointProblem::Row& row : problem->rows()) {
-      if (&row == left_out) continue;
-      const double residual_m = problem->Residual(row);
-      const double weight = GraduatedWeight(residual_m, row.error.sigma_m, width);
-      problem->Accumulate(row, weight, weight * residual_m, &normals.matrix, &normals.right);
-    }
-    problem->AccumulatePriors(&normals.matrix, &normals.right);
-    PointVector step;
-    if (!normals.Solve(&step)) return -1.0;
-    problem->Step(step);
-    return step.head<3>().norm();
-  };
-  for (int i = 0; i < 12; ++i) {
-    const double moved_m = solve(1e9);
-    if (moved_m < 0.0 || moved_m > 1e8) return false;
-    if (moved_m < 1.0) break;
-  }
-  if (!robust) return true;
-  // Begin where the worst residual is not yet suspect.
-  double worst = 0.0;
-  for (const PointProblem::Row& row : problem->rows()) {
-    if (&row == left_out) continue;
-    worst = std::max(worst, std::abs(problem->Residual(row)) / row.error.sigma_m);
-  }
-  for (double width = std::clamp(worst, 16.0, 1e7); width > 1.5; width *= 0.6) {
-    if (solve(width) < 0.0) return false;
-  }
-  return true;
-}
-
-// Descends to the mode of the posterior. Returns the number of iterations, or -1.
-int Descend(PointProblem* problem, int largest_iterations) {
-  double cost = Cost(*problem);
-  for (int i = 1; i <= largest_iterations; ++i) {
-    Normals normals(problem->unknowns());
-    ModelNormals(*problem, &normals.matrix, &normals.right);
-    PointVector step;
-    if (!normals.Solve(&step)) return -1;
-    const Eigen::Vector3d point = problem->point_in_ecef();
-    const PointVector clocks = problem->clock_state();
-    const double zenith_delay_m = problem->zenith_delay_m();
-    double scale = 1.0;
-    double new_cost = cost;
-    bool better = false;
-    for (int halving = 0; halving < 6; ++halving, scale *= 0.4) {
-      problem->clock_state() = clocks;
-      problem->zenith_delay_m() = zenith_delay_m;
-      problem->MoveTo(point);
-      problem->Step(scale * step);
-      new_cost = Cost(*problem);
-      if (new_cost <= cost) {
-        better = true;
-        break;
-      }
-    }
-    if (!better) {
-      problem->clock_state() = clocks;
-      problem->zenith_delay_m() = zenith_delay_m;
-      problem->MoveTo(point);
-      return i;
-    }
-    const double gain = cost - new_cost;
-    cost = new_cost;
-    if (scale * step.norm() < kConverged_m || (gain < kSmallGain && scale * step.norm() < 0.02)) {
-      return i;
-    }
-  }
-  return largest_iterations;
-}
-
-// How many more rows than expected are likelier anything but noise.
-double Surprise(const PointProblem& problem) {
-  double surprise = 0.0;
-  for (const PointProblem::Row& row : problem.rows()) {
-    surprise += 1.0 - EvaluateRangeError(row.error, problem.Residual(row)).core_share;
-    surprise -= row.error.late_probability;
-  }
-  return surprise;
-}
-
-// The rows that hold the present state most, by what their information is worth to it.
-std::array<const PointProblem::Row*, kSuspects> Suspects(const PointProblem& problem) {
-  std::array<const PointProblem::Row*, kSuspects> suspects = {};
-  std::array<double, kSuspects> leverages = {};
-  Normals normals(problem.unknowns());
-  ModelNormals(problem, &normals.matrix, &normals.right);
-  const Eigen::LLT<PointMatrix, Eigen::Upper> factor(normals.matrix);
-  if (factor.info() != Eigen::Success) return suspects;
-  for (const PointProblem::Row& row : problem.rows()) {
-    const PointVector slope = problem.Slope(row);
-    const double core_share = EvaluateRangeError(row.error, problem.Residual(row)).core_share;
-    const PointVector gain = factor.solve(slope);
-    double leverage = core_share * slope.dot(gain) / (row.error.sigma_m * row.error.sigma_m);
-    const PointProblem::Row* suspect = &row;
-    for (std::size_t i = 0; i < kSuspects; ++i) {
-      if (leverage <= leverages[i]) continue;
-      std::swap(leverage, leverages[i]);
-      std::swap(suspect, suspects[i]);
-    }
-  }
-  return suspects;
-}
-
-// A single wrong range with much leverage can draw the approach to itself, so that it fits and
-// others do not. Approaches again without each of the rows that the state hangs on, and keeps the
-// mode that costs least.
-void Reconsider(PointProblem* problem, int largest_iterations) {
-  PointProblem best = *problem;
-  double least = Cost(best);
-  for (const PointProblem::Row* suspect : Suspects(*problem)) {
-    if (suspect == nullptr || !Approach(problem, true, suspect)) continue;
-    if (Descend(problem, largest_iterations) < 0) continue;
-    const double cost = Cost(*problem);
-    if (!(cost < least)) continue;
-    least = cost;
-    best = *problem;
-  }
-  *problem = best;
-  problem->MoveTo(problem->point_in_ecef());  // the rows are shared
-}
 
 // A proposal for the sampling where the place is known from elsewhere: no more than a few times as
 // wide as that knowledge.
@@ -278,13 +99,16 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
     return estimate->status = PointStatus::kTooFew;
   }
 
-  if (!Approach(&problem, redundancy > 0, nullptr)) {
+  if (!Approach(&problem, redundancy > 0)) {
     return estimate->status = PointStatus::kNotConverged;
   }
   estimate->iterations = Descend(&problem, options.largest_iterations);
   if (estimate->iterations < 0) return estimate->status = PointStatus::kNotConverged;
-  if (redundancy > 1 && Surprise(problem) > kSurprising) {
-    Reconsider(&problem, options.largest_iterations);
+  if (redundancy > 1) Reconsider(&problem, options.largest_iterations);
+
+  OtherModes others;
+  if (options.posterior_mean && redundancy > 0) {
+    others = FindOtherModes(&problem, options.largest_iterations, options.integrity_risk);
   }
 
   // Information at the mode.
@@ -382,8 +206,9 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
   const double trace_m2 = covariance.topLeftCorner<3, 3>().trace();
   const double spread_factor =
       std::sqrt(std::max(1.0, estimate->covariance_enu_m2.trace() / trace_m2));
-  const ProtectionLevels levels = SeparationLevels(problem, at_solution.matrix, weights_,
-                                                   spread_factor, options.integrity_risk);
+  ProtectionLevels levels = SeparationLevels(problem, at_solution.matrix, weights_, spread_factor,
+                                             options.integrity_risk);
+  WidenToModes(others, problem, spread_factor, options.integrity_risk, &levels);
   estimate->protection_level_m = levels.horizontal_m;
   estimate->vertical_protection_level_m = levels.vertical_m;
   const DilutionOfPrecision dilution = Dilution(problem, weights_, kUnknownBias_m);

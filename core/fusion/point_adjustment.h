@@ -24,7 +24,8 @@ enum class PointStatus : std::uint8_t {
 
 struct PointOptions {
   int largest_iterations = 20;
-  // Posterior mean over the whole error model instead of its mode wherever some ranges disagree.
+  // Posterior mean over the whole error model instead of its mode wherever some ranges disagree,
+  // and protection levels that reach to its other modes.
   bool posterior_mean = true;
   int posterior_samples = 512;  // a round
   std::optional<HeightPrior> height;

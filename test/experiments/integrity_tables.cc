@@ -1,0 +1,128 @@
+// Epochs with reflected satellites and mismatched landmarks: how often an answer errs by more than
+// its protection level, and how large those levels are.
+//
+//   integrity_tables [EPOCHS]    a row; default 10000; docs/experiments.md holds what it prints
+//
+// Exits with 1 if any answer errs by more than its protection level.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include "test/unit/fusion/faulty_epoch.h"
+
+namespace lodemark {
+namespace {
+
+constexpr std::uint64_t kSeed = 5;
+
+double Quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + k, values.end());
+  return values[static_cast<std::size_t>(k)];
+}
+
+struct Levels {
+  std::vector<double> level_m;
+  std::vector<double> error_m;  // of the same
+  int misleading = 0;
+  int beyond_half = 0;  // errors of more than half the level
+  double worst = 0.0;   // error over level
+
+  void Add(double error, double level) {
+    if (!(level > 0.0)) return;
+    level_m.push_back(level);
+    error_m.push_back(error);
+    misleading += error > level ? 1 : 0;
+    beyond_half += error > 0.5 * level ? 1 : 0;
+    worst = std::max(worst, error / level);
+  }
+  void Print(int epochs) const {
+    std::printf(" %d | %.2f | %.1f %% | %.1f, %.1f | %.1f, %.1f |", misleading, worst,
+                100.0 * static_cast<double>(level_m.size()) / epochs, Quantile(error_m, 0.5),
+                Quantile(error_m, 0.99), Quantile(level_m, 0.5), Quantile(level_m, 0.99));
+  }
+};
+
+int Run(const char* label, const FaultyEpochs& faults, int epochs) {
+  Levels horizontal;
+  Levels vertical;
+  int answered = 0;
+  int faulty = 0;
+  int several = 0;
+  for (int i = 0; i < epochs; ++i) {
+    const std::optional<FaultyAnswer> answer = AnswerFaultyEpoch(faults, kSeed, i);
+    if (!answer) continue;
+    ++answered;
+    faulty += answer->reflected + answer->mismatched > 0 ? 1 : 0;
+    several += answer->reflected + answer->mismatched > 1 ? 1 : 0;
+    horizontal.Add(answer->horizontal_m(), answer->estimate.protection_level_m);
+    vertical.Add(answer->up_m(), answer->estimate.vertical_protection_level_m);
+    if (std::getenv("LODEMARK_EXPERIMENT_DETAILS") != nullptr &&
+        (answer->IsMisleading() || answer->IsMisleadingUp())) {
+      std::fprintf(stderr,
+                   "%s %d/%d epoch %d: %d reflected, %d mismatched, %.2f of %.2f, %.2f of %.2f%s\n",
+                   label, faults.satellites, faults.landmarks, i, answer->reflected,
+                   answer->mismatched, answer->horizontal_m(), answer->estimate.protection_level_m,
+                   answer->up_m(), answer->estimate.vertical_protection_level_m,
+                   answer->used_landmarks ? "" : ", satellites alone");
+    }
+  }
+  std::printf("| %s | %d | %d | %.1f %% | %.1f %% | %.1f %% |", label, faults.satellites,
+              faults.landmarks, 100.0 * answered / epochs, 100.0 * faulty / std::max(answered, 1),
+              100.0 * several / std::max(answered, 1));
+  horizontal.Print(epochs);
+  vertical.Print(epochs);
+  std::printf("\n");
+  std::fflush(stdout);
+  return horizontal.misleading + vertical.misleading;
+}
+
+int Main(int epochs) {
+  std::printf(
+      "%d epochs a row, seed %d\n\n| faults | satellites | landmarks | answered | with a fault | "
+      "with several | misleading | worst error / level | with a level | error m, 50 and 99 %% | "
+      "level m, 50 and 99 %% | misleading, up | worst, up | with a level, up | error up m | level "
+      "up m |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- "
+      "| --- | --- |\n",
+      epochs, static_cast<int>(kSeed));
+  struct Kind {
+    const char* label;
+    double reflected;
+    double mismatched;
+  };
+  const Kind kinds[] = {{"none", 0.0, 0.0},
+                        {"reflections", 0.05, 0.0},
+                        {"mismatches", 0.0, 0.05},
+                        {"both", 0.05, 0.05}};
+  int misleading = 0;
+  for (const Kind& kind : kinds) {
+    for (const auto& [satellites, landmarks] :
+         {std::pair(10, 0), std::pair(10, 12), std::pair(10, 6), std::pair(5, 12), std::pair(3, 12),
+          std::pair(0, 12)}) {
+      if (satellites == 0 && kind.reflected > 0.0) continue;
+      if (landmarks == 0 && kind.mismatched > 0.0) continue;
+      FaultyEpochs faults;
+      faults.satellites = satellites;
+      faults.landmarks = landmarks;
+      faults.reflected = kind.reflected;
+      faults.mismatched = kind.mismatched;
+      misleading += Run(kind.label, faults, epochs);
+    }
+  }
+  std::printf("\nmisleading answers: %d\n", misleading);
+  return misleading > 0 ? 1 : 0;
+}
+
+}  // namespace
+}  // namespace lodemark
+
+int main(int argc, char** argv) {
+  const int epochs = argc > 1 ? std::atoi(argv[1]) : 10'000;
+  if (epochs < 1) {
+    std::fprintf(stderr, "usage: integrity_tables [EPOCHS]\n");
+    return 2;
+  }
+  return lodemark::Main(epochs);
+}
