@@ -56,6 +56,7 @@ void BearingGroup::Set(std::span<const BearingObservation> bearings, const Attit
   options_ = options;
   camera_from_ecef_ = camera_from_ecef.normalized();
   shift_m_.setZero();
+  sigma_factor_ = 1.0;
 }
 
 // A landmark in camera axes q, seen in direction b: to first order its deviation from b, in the
@@ -84,6 +85,8 @@ void BearingGroup::Linearise(const Eigen::Vector3d& camera_in_ecef) {
     const Eigen::LLT<Eigen::Matrix2d> factor(covariance);
     factor.matrixL().solveInPlace(linear.slope);
     factor.matrixL().solveInPlace(linear.residual);
+    linear.slope /= sigma_factor_;
+    linear.residual /= sigma_factor_;
   }
 }
 
@@ -219,6 +222,27 @@ PositionStatement BearingGroup::Without(std::size_t part) const {
     normals.right -= weight * linear.slope.transpose() * linear.residual;
   }
   return Stated(WithoutAttitude(normals));
+}
+
+// Of every bearing two residuals, less what position and attitude take of them.
+GroupMisfit BearingGroup::MisfitBeside(const Eigen::Matrix3d& information_pm2) const {
+  Eigen::Matrix<double, 6, 6> information = normals_.information;
+  const PositionStatement beside = {around_in_ecef_, information_pm2, Eigen::Vector3d::Zero()};
+  information.topLeftCorner<3, 3>() +=
+      beside.WithCommonError(options_.common_covariance_enu_m2).information_pm2;
+  const Eigen::LLT<Eigen::Matrix<double, 6, 6>> factor(information);
+  if (factor.info() != Eigen::Success) return {};
+  GroupMisfit misfit;
+  for (std::size_t i = 0; i < bearings_.size(); ++i) {
+    const double weight = verdicts_[i].weight;
+    if (!(weight > 0.0)) continue;
+    const LinearBearing& linear = linear_[i];
+    const Eigen::Matrix<double, 6, 2> gain =
+        factor.solve(Eigen::Matrix<double, 6, 2>(linear.slope.transpose()));
+    misfit.squares += weight * linear.residual.squaredNorm();
+    misfit.redundancy += weight * (2.0 - weight * (linear.slope * gain).trace());
+  }
+  return misfit;
 }
 
 // Law of total covariance: the attitude's at a fixed position, and what the position's adds.

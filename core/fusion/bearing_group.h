@@ -51,6 +51,8 @@ class BearingGroup : public PositionWitness {
   std::size_t parts() const override { return bearings_.size(); }
   double WeightOf(std::size_t part) const override { return verdicts_[part].weight; }
   PositionStatement Without(std::size_t part) const override;
+  GroupMisfit MisfitBeside(const Eigen::Matrix3d& information_pm2) const override;
+  void ScaleSigmas(double factor) override { sigma_factor_ = factor; }
 
   const Eigen::Quaterniond& camera_from_ecef() const { return camera_from_ecef_; }
   // What the points are displaced by in common, as far as the bearings and the last point tell:
@@ -97,6 +99,7 @@ class BearingGroup : public PositionWitness {
   Eigen::Vector3d shift_m_ = Eigen::Vector3d::Zero();  // east, north, up
   Eigen::Matrix3d enu_from_ecef_ = Eigen::Matrix3d::Identity();
   Normals normals_;
+  double sigma_factor_ = 1.0;
   double scale_ = 1.0;  // of all bearings, more than 1 while the position is off
 };
 

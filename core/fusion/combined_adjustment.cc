@@ -14,6 +14,13 @@ namespace {
 // What a witness fixes no better it does not know.
 constexpr double kUnknownPlace_m = 1e3;
 
+// Sigmas are never taken for more wrong than so many times.
+constexpr double kLargestFactor = 10.0;
+
+// Components are found when none changes by more, and where they are not found so soon, taken.
+constexpr double kSameFactor = 0.01;
+constexpr int kMostComponentRounds = 8;
+
 // An estimate is one if every direction is known so well.
 constexpr double kNoPlace_m = 1e3;
 
@@ -48,6 +55,21 @@ double SigmasMoved(const PointEstimate& estimate, const Eigen::Vector3d& from_in
   return std::sqrt(moved_m.dot(estimate.information_pm2 * moved_m));
 }
 
+// A group as it is stated; whether its misfit, as it is stated, tells enough.
+GroupScale ScaleAsStated(const GroupMisfit& misfit, double fewest) {
+  return {1.0, misfit.redundancy, misfit.redundancy >= fewest && misfit.squares > 0.0};
+}
+
+// The component of one group, of the same again with its sigmas scaled by it so far.
+GroupScale ScaleFrom(const GroupMisfit& misfit, const GroupScale& before) {
+  GroupScale scale = before;
+  scale.redundancy = misfit.redundancy;
+  if (!scale.estimated || !(misfit.redundancy > 0.0) || !(misfit.squares > 0.0)) return scale;
+  scale.sigma_factor = before.sigma_factor * std::sqrt(misfit.squares / misfit.redundancy);
+  scale.sigma_factor = std::clamp(scale.sigma_factor, 1.0 / kLargestFactor, kLargestFactor);
+  return scale;
+}
+
 bool IsPlace(const PointEstimate& estimate) {
   return estimate.covariance_enu_m2.allFinite() &&
          estimate.covariance_enu_m2.diagonal().maxCoeff() < kNoPlace_m * kNoPlace_m;
@@ -55,11 +77,10 @@ bool IsPlace(const PointEstimate& estimate) {
 
 }  // namespace
 
-PointStatus CombinedAdjustment::Solve(std::span<const RangeObservation> observations,
-                                      const Eigen::Vector3d& start_in_ecef,
-                                      const ClockBiases& biases, const CombinedOptions& options,
-                                      PositionWitness* witness, CombinedEstimate* estimate,
-                                      std::vector<ObservationVerdict>* verdicts) {
+PointStatus CombinedAdjustment::SolveAsWeighted(
+    std::span<const RangeObservation> observations, const Eigen::Vector3d& start_in_ecef,
+    const ClockBiases& biases, const CombinedOptions& options, PositionWitness* witness,
+    CombinedEstimate* estimate, std::vector<ObservationVerdict>* verdicts) {
   *estimate = CombinedEstimate();
   const PointStatus alone = adjustment_.Solve(observations, start_in_ecef, biases, options.point,
                                               &estimate->satellites_alone, &verdicts_alone_);
@@ -109,6 +130,53 @@ PointStatus CombinedAdjustment::Solve(std::span<const RangeObservation> observat
   estimate->witness = WitnessVerdict::kUsed;
   WidenByParts(*witness, statement, options.point.integrity_risk, &estimate->point);
   return PointStatus::kGood;
+}
+
+// Helmert's components, simplified to one factor a group: its squared residuals against what they
+// should be, the adjustment done again, until both agree.
+PointStatus CombinedAdjustment::Solve(std::span<const RangeObservation> observations,
+                                      const Eigen::Vector3d& start_in_ecef,
+                                      const ClockBiases& biases, const CombinedOptions& options,
+                                      PositionWitness* witness, CombinedEstimate* estimate,
+                                      std::vector<ObservationVerdict>* verdicts) {
+  CombinedOptions asked = options;
+  asked.point.misfit = options.estimate_variance_components;
+  PointStatus status =
+      SolveAsWeighted(observations, start_in_ecef, biases, asked, witness, estimate, verdicts);
+  if (!options.estimate_variance_components) return status;
+  GroupScale satellites;
+  GroupScale landmarks;
+  for (int round = 0; round < kMostComponentRounds; ++round) {
+    if (status != PointStatus::kGood || estimate->witness != WitnessVerdict::kUsed) break;
+    const PointEstimate& point = estimate->point;
+    const double satellite_factor = satellites.sigma_factor;
+    const double landmark_factor = landmarks.sigma_factor;
+    const GroupMisfit of_landmarks =
+        witness->MisfitBeside(point.information_pm2 - point.stated_information_pm2);
+    if (round == 0) {
+      satellites = ScaleAsStated(point.misfit, options.fewest_for_component);
+      landmarks = ScaleAsStated(of_landmarks, options.fewest_for_component);
+    }
+    satellites = ScaleFrom(point.misfit, satellites);
+    landmarks = ScaleFrom(of_landmarks, landmarks);
+    const bool same =
+        std::abs(satellites.sigma_factor - satellite_factor) < kSameFactor * satellite_factor &&
+        std::abs(landmarks.sigma_factor - landmark_factor) < kSameFactor * landmark_factor;
+    if (same) break;
+    scaled_.assign(observations.begin(), observations.end());
+    for (RangeObservation& range : scaled_) range.error.sigma_m *= satellites.sigma_factor;
+    witness->ScaleSigmas(landmarks.sigma_factor);
+    const Eigen::Vector3d near_by = point.position_in_ecef;
+    status = SolveAsWeighted(scaled_, near_by, biases, asked, witness, estimate, verdicts);
+  }
+  if (status != PointStatus::kGood || estimate->witness != WitnessVerdict::kUsed) {
+    // Nothing to tell components from: as stated.
+    witness->ScaleSigmas(1.0);
+    return SolveAsWeighted(observations, start_in_ecef, biases, asked, witness, estimate, verdicts);
+  }
+  estimate->satellite_scale = satellites;
+  estimate->landmark_scale = landmarks;
+  return status;
 }
 
 }  // namespace lodemark

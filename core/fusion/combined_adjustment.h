@@ -27,8 +27,19 @@ struct CombinedOptions {
   // large the region is in which it may then put the camera.
   double elsewhere_probability = 1e-3;
   double elsewhere_volume_m3 = 1e6;
-  double converged_sigmas = 1e-3;  // the answer is found when it moves by less
+  // Estimates by how much the sigmas of satellites and of landmarks are wrong, each as a whole,
+  // from how well they fit; groups with less redundancy keep theirs.
+  bool estimate_variance_components = false;
+  double fewest_for_component = 8.0;  // redundancy, with the sigmas as stated
+  double converged_sigmas = 1e-3;     // the answer is found when it moves by less
   int most_rounds = 20;
+};
+
+// What came of a group's variance component.
+struct GroupScale {
+  double sigma_factor = 1.0;  // times the stated sigmas
+  double redundancy = 0.0;    // that it rests on
+  bool estimated = false;     // false: not asked for, or too little redundancy to tell
 };
 
 struct CombinedEstimate {
@@ -36,6 +47,8 @@ struct CombinedEstimate {
   WitnessVerdict witness = WitnessVerdict::kNothing;
   bool has_satellites_alone = false;
   PointEstimate satellites_alone;
+  GroupScale satellite_scale;
+  GroupScale landmark_scale;
   int rounds = 0;
 };
 
@@ -52,8 +65,16 @@ class CombinedAdjustment {
                     CombinedEstimate* estimate, std::vector<ObservationVerdict>* verdicts);
 
  private:
+  // With the sigmas as they are given.
+  PointStatus SolveAsWeighted(std::span<const RangeObservation> observations,
+                              const Eigen::Vector3d& start_in_ecef, const ClockBiases& biases,
+                              const CombinedOptions& options, PositionWitness* witness,
+                              CombinedEstimate* estimate,
+                              std::vector<ObservationVerdict>* verdicts);
+
   PointAdjustment adjustment_;
   std::vector<ObservationVerdict> verdicts_alone_;
+  std::vector<RangeObservation> scaled_;  // workspace
 };
 
 }  // namespace lodemark

@@ -71,6 +71,24 @@ Eigen::Matrix4d FromHeldUnknowns(const PointProblem& problem, const PointMatrix&
   return with_sampled.transpose() * gain;
 }
 
+// information: the normal matrix; weights: the information of each row in it.
+GroupMisfit MisfitOf(const PointProblem& problem, const PointMatrix& information,
+                     std::span<const double> weights) {
+  const Eigen::LLT<PointMatrix, Eigen::Upper> factor(information);
+  if (factor.info() != Eigen::Success) return {};
+  GroupMisfit misfit;
+  for (std::size_t i = 0; i < problem.rows().size(); ++i) {
+    const PointProblem::Row& row = problem.rows()[i];
+    const PointVector slope = problem.Slope(row);
+    const PointVector gain = factor.solve(slope);
+    const double residual_m = problem.Residual(row);
+    const double share = weights[i] * row.error.sigma_m * row.error.sigma_m;
+    misfit.squares += weights[i] * residual_m * residual_m;
+    misfit.redundancy += share * std::max(1.0 - weights[i] * slope.dot(gain), 0.0);
+  }
+  return misfit;
+}
+
 }  // namespace
 
 PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observations,
@@ -203,6 +221,7 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
   estimate->clock_variance_m2 *= growth;
   Normals at_solution(problem.unknowns());
   ModelNormals(problem, &at_solution.matrix, &at_solution.right);
+  if (options.misfit) estimate->misfit = MisfitOf(problem, at_solution.matrix, weights_);
   const double trace_m2 = covariance.topLeftCorner<3, 3>().trace();
   const double spread_factor =
       std::sqrt(std::max(1.0, estimate->covariance_enu_m2.trace() / trace_m2));

@@ -11,6 +11,7 @@
 #include "core/fusion/clock_biases.h"
 #include "core/fusion/observation.h"
 #include "core/fusion/point_problem.h"
+#include "core/fusion/position_witness.h"
 #include "core/fusion/posterior_sampling.h"
 
 namespace lodemark {
@@ -32,6 +33,7 @@ struct PointOptions {
   std::optional<PositionStatement> place;  // what else is known of the position
   // Estimates the zenith delay that no model took out, zero within this sigma; 0: does not.
   double zenith_delay_sigma_m = 0.0;
+  bool misfit = false;  // asks for that of the estimate
   // Probability of the risk that the protection levels leave.
   double integrity_risk = 1e-5;
 };
@@ -52,6 +54,7 @@ struct PointEstimate {
   Eigen::Matrix3d information_pm2 = Eigen::Matrix3d::Zero();
   // The part of it that was stated and not ranged.
   Eigen::Matrix3d stated_information_pm2 = Eigen::Matrix3d::Zero();
+  GroupMisfit misfit;    // of the ranges, where asked for
   double clock_m = 0.0;  // of group 0
   double clock_variance_m2 = 0.0;
   double zenith_delay_m = 0.0;

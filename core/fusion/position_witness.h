@@ -8,6 +8,13 @@
 
 namespace lodemark {
 
+// How well a group of observations fits an adjustment: the sum of their squared residuals in
+// sigmas, and what it would be if the sigmas were right.
+struct GroupMisfit {
+  double squares = 0.0;
+  double redundancy = 0.0;
+};
+
 // What the landmarks of a photograph say, in the adjustment together with satellites. Its own
 // unknowns, such as the camera's attitude, it keeps to itself: a statement is what is left once
 // they are eliminated.
@@ -27,6 +34,12 @@ class PositionWitness {
   virtual double WeightOf(std::size_t part) const = 0;
   // The statement of the last At without one part.
   virtual PositionStatement Without(std::size_t part) const = 0;
+
+  // Of its observations at the last At, where all else has so much information on the position.
+  // Nothing for a witness that cannot check itself.
+  virtual GroupMisfit MisfitBeside(const Eigen::Matrix3d& /*information_pm2*/) const { return {}; }
+  // Takes the sigmas of its observations for so many times as stated. Nothing likewise.
+  virtual void ScaleSigmas(double /*factor*/) {}
 };
 
 }  // namespace lodemark

@@ -160,6 +160,7 @@ PointStatus EpochSolver::Adjust(const Eigen::Vector3d& place, const PhotoPart& p
   }
   CombinedOptions combined_options;
   combined_options.point = options;
+  combined_options.estimate_variance_components = options_.estimate_variance_components;
   const PointStatus status = combined_adjustment_.Solve(ranges_, start, biases_, combined_options,
                                                         photo.witness, &combined_, &verdicts_);
   point_ = combined_.point;

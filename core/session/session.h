@@ -59,10 +59,11 @@ struct SessionOptions {
   WeightChoice weight = WeightChoice::kSignal;
   double elevation_a_m = 1.0;  // of kElevation
   double elevation_b_m = 1.0;
-  bool estimate_variance_components = false;  // a and b of kElevation from the residuals
-  bool estimate_zenith_delay = false;         // a tropospheric zenith delay in the state
-  bool height_memory = false;                 // a weak memory of the height
-  bool learn_biases = true;                   // between signals and systems, from past epochs
+  // From the residuals: a and b of kElevation, and of satellites and of landmarks a factor each.
+  bool estimate_variance_components = false;
+  bool estimate_zenith_delay = false;  // a tropospheric zenith delay in the state
+  bool height_memory = false;          // a weak memory of the height
+  bool learn_biases = true;            // between signals and systems, from past epochs
   bool accept_unhealthy = false;
   std::int32_t queue_capacity = 64;  // epochs that may wait for Process
   std::uint64_t seed = 1;
