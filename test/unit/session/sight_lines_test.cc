@@ -116,6 +116,17 @@ TEST_F(MapOfBuildings, HideSatellitesAndWhatIsBehindThem) {
   EXPECT_FALSE(sights.ProbabilityOfSight(low, Look(0.0, 30.0), 0.19).has_value());
 }
 
+TEST_F(MapOfBuildings, AreNotLookedAtFromBelowTheGround) {
+  const auto map = Make({WallInTheNorth(1, 20.0, "a")});  // from 2 m below the origin to 20 m above
+  ASSERT_NE(map, nullptr);
+  SightLines sights;
+  sights.Use(std::move(BuildingsOf(*map)).value());
+  // From the ground the roof is at 48 degrees, from 20 m below it would be at 63.
+  sights.Stand(EnuFrame(kOrigin), PlaceAt({0.0, 0.0, -20.0}, 0.5));
+  EXPECT_GT(*sights.ProbabilityOfSight({System::kGps, 1}, Look(0.0, 54.0), 0.19), 0.9);
+  EXPECT_LT(*sights.ProbabilityOfSight({System::kGps, 2}, Look(0.0, 42.0), 0.19), 0.1);
+}
+
 // Six epochs, some ranges a little late; the estimates and what became of each signal.
 std::vector<SessionEstimate> Replay(const SessionScene& scene, const FeatureMap* map,
                                     std::vector<SatelliteStatus>* statuses) {
