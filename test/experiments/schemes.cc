@@ -8,9 +8,9 @@
 #include "core/fusion/bearing_group.h"
 #include "core/fusion/combined_adjustment.h"
 #include "core/fusion/visual_range_group.h"
-#include "core/resection/collinearity.h"
 #include "core/resection/resection.h"
 #include "core/resection/visual_ranges.h"
+#include "test/experiments/photo_bound.h"
 
 namespace lodemark {
 namespace {
@@ -177,20 +177,9 @@ Eigen::Matrix3d CramerRaoBound(const SquareDraw& draw, int satellites, bool with
     slope[7] = range.zenith_delay_factor;
     information += slope * slope.transpose() / (range.error.sigma_m * range.error.sigma_m);
   }
-  const Lens lens = SquareLens();
-  const CameraPose pose(
-      Rigid3(draw.camera_from_enu, -(draw.camera_from_enu * draw.truth_in_enu_m)));
-  LinearSight linear;
-  for (const LandmarkSight& sight : draw.sights) {
-    if (!with_photograph || !Linearise(sight, pose, lens, &linear)) continue;
-    const Eigen::Matrix2d covariance = PixelCovariance(sight, linear.by_landmark, 1.0);
-    information.topLeftCorner<6, 6>() +=
-        linear.by_pose.transpose() * covariance.inverse() * linear.by_pose;
-  }
-  // Gravity tells the turns about east and north.
-  for (const int turn : {3, 4}) {
-    information(turn, turn) += 1.0 / (draw.gravity.sigma_rad * draw.gravity.sigma_rad);
-  }
+  information.topLeftCorner<6, 6>() +=
+      PhotoInformation(with_photograph ? draw.sights : std::vector<LandmarkSight>(), SquareLens(),
+                       draw.camera_from_enu, draw.truth_in_enu_m, draw.gravity.sigma_rad);
   // What nothing tells is left with a trace of information, so that the rest can be inverted.
   if (!with_photograph) information.block<3, 3>(3, 3) = Eigen::Matrix3d::Identity();
   if (satellites == 0) information(6, 6) = 1.0;

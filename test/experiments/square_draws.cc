@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/base/units.h"
+#include "test/experiments/photo_bound.h"
 
 namespace lodemark {
 namespace {
@@ -46,15 +47,6 @@ Eigen::Vector3d DrawLandmark(const Standpoint& place, double wall_m, Random* ran
           on_ground ? 0.0 : random->Uniform(0.0, 20.0)};
 }
 
-Eigen::Quaterniond CameraFromEnu(double heading_rad, double pitch_rad, double roll_rad) {
-  // Level first: right, down, forward in rows.
-  Eigen::Matrix3d level;
-  level << std::cos(heading_rad), -std::sin(heading_rad), 0.0, 0.0, 0.0, -1.0,
-      std::sin(heading_rad), std::cos(heading_rad), 0.0;
-  return Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(-pitch_rad, Eigen::Vector3d::UnitX()) * Eigen::Quaterniond(level);
-}
-
 }  // namespace
 
 Lens SquareLens() {
@@ -76,7 +68,7 @@ SquareDraw DrawSquare(const SquareNoise& noise, int landmarks, std::uint64_t see
   const Standpoint& place = kStandpoints[draw % 4];
   square.truth_in_enu_m = {place.east_m, place.north_m, kEye_m};
   square.truth_in_ecef = square.frame.ToEcef(square.truth_in_enu_m);
-  square.camera_from_enu = CameraFromEnu(
+  square.camera_from_enu = LevelCamera(
       (place.heading_deg + random.Uniform(-5.0, 5.0)) * kRadiansPerDegree,
       random.Uniform(-2.0, 6.0) * kRadiansPerDegree, random.Uniform(-2.0, 2.0) * kRadiansPerDegree);
 
