@@ -9,6 +9,7 @@
 #include "core/base/units.h"
 #include "core/geo/time.h"
 #include "core/logs/rinex_navigation_writer.h"
+#include "tools/simulator/footprints_text.h"
 #include "tools/simulator/gnss_logger_text.h"
 #include "tools/simulator/simulator.h"
 
@@ -20,6 +21,7 @@ constexpr double kTruthStep_s = 0.25;
 constexpr double kTruthMargin_s = 1.0;  // receiver clocks stray, so the truth reaches further
 constexpr int kSensorRowsPerEpoch = 2;
 constexpr const char* kPathsFile = "signal_paths.csv";
+constexpr const char* kFootprintsFile = "buildings.geojson";
 
 std::int64_t UnixMilliseconds(std::int64_t time_gps_ns) {
   return ScaleFromGps(time_gps_ns, TimeScale::kUtc) / kMillisecond_ns + kUnixOffset_ms;
@@ -174,6 +176,7 @@ std::string ManifestText(const Scenario& scenario) {
       {"notes", "Made by lodemark simulate. No measurement in it was ever taken."}};
   if (!scenario.photography.scene.buildings.empty()) {
     manifest["files"]["signal_paths"] = kPathsFile;
+    manifest["files"]["buildings"] = kFootprintsFile;
   }
   for (const PhotoGroup& group : scenario.photography.groups) {
     // The phone's own photographs, and those that a map is made from.
@@ -196,6 +199,8 @@ RecordingFiles MakeRecording(const Scenario& scenario,
   log = GnssLoggerHeader();
   std::string* paths = nullptr;
   if (!scenario.photography.scene.buildings.empty()) {
+    files[kFootprintsFile] =
+        FootprintsText(scenario.photography.scene.buildings, simulator.frame());
     paths = &files[kPathsFile];
     *paths = "time_gps_ns,satellite,elevation_deg,azimuth_deg,direct,reflected,extra_path_m\n";
   }

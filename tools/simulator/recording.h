@@ -10,7 +10,7 @@
 namespace lodemark {
 
 // File names and their content: gnss_log.txt, the navigation file, truth.csv, manifest.json, and
-// between buildings signal_paths.csv.
+// between buildings signal_paths.csv and buildings.geojson.
 using RecordingFiles = std::map<std::string, std::string>;
 
 // The same files, to the last byte, for the same scenario. progress, if not empty, is called with
