@@ -415,7 +415,7 @@ typedef struct lodemark_query_options {
   uint32_t struct_size;
   int32_t most_features;   /* detected in the photograph; 0: 4000 */
   int32_t longest_side_px; /* larger photographs are scaled down to this first; 0: 1600; negative:
-                              never */
+                              never, but that SIFT takes 12.5 Mpx at most */
   int32_t lists_to_visit;  /* of the map's index, for each feature; 0: as the index advises */
   double largest_ratio;    /* nearest to second nearest landmark; 0: 0.8 */
 } lodemark_query_options;
@@ -691,8 +691,10 @@ LODEMARK_API lodemark_status lodemark_session_push_broadcast(
     size_t byte_count);
 
 /*
- * The map that photographs are looked up in; NULL for none. It must stay open while the session
- * uses it, and be used by the same thread.
+ * The map that photographs are looked up in; NULL for none. Where it has buildings, satellites
+ * behind them are trusted less, and landmarks behind them are not looked for. It must stay open
+ * while the session uses it, and be used by the same thread. LODEMARK_ERROR_BAD_DATA if its
+ * buildings are damaged; the session then has no map.
  */
 LODEMARK_API lodemark_status lodemark_session_use_map(lodemark_session* session, lodemark_map* map);
 
