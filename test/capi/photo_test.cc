@@ -25,8 +25,13 @@ double PeakMemory_MB() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-// The sanitizers keep memory of their own beside the program's.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+// The sanitizers keep memory of their own beside the program's. Compilers tell of them in two ways.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define LODEMARK_SANITIZED
+#endif
+#endif
+#if defined(LODEMARK_SANITIZED) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kMemoryIsTheProgramsOwn = false;
 #else
 constexpr bool kMemoryIsTheProgramsOwn = true;
