@@ -6,12 +6,17 @@
 namespace lodemark {
 namespace {
 
-// A velocity that is older than this is none any more.
-constexpr double kVelocityLasts_s = 3.0;
-
-// 1 sigma an axis, east, north, up: of a velocity nobody knows, and of how it changes in a second.
-const Eigen::Vector3d kAnyVelocity_mps(2.0, 2.0, 0.5);
+// 1 sigma an axis, east, north, up: of a velocity nobody knows, which may be a car's, and of how it
+// changes in a second.
+const Eigen::Vector3d kAnyVelocity_mps(8.0, 8.0, 1.0);
 const Eigen::Vector3d kChange_mps2(1.0, 1.0, 0.3);
+
+// A velocity that is older than this is none any more: by then it is hardly surer.
+constexpr double kVelocityLasts_s = 5.0;
+
+// Two places nearer in time say little about the velocity; farther apart, little about that now.
+constexpr double kNearest_s = 0.2;
+constexpr double kFarthest_s = 4.0;
 
 double Seconds(std::int64_t from_ns, std::int64_t to_ns) {
   return 1e-9 * static_cast<double>(to_ns - from_ns);
@@ -19,29 +24,65 @@ double Seconds(std::int64_t from_ns, std::int64_t to_ns) {
 
 }  // namespace
 
+Motion::Velocity Motion::At(double age_s) const {
+  Velocity velocity;
+  if (velocity_ && age_s < kVelocityLasts_s) {
+    velocity = *velocity_;
+    velocity.covariance_enu_m2ps2.diagonal() += (kChange_mps2 * age_s).cwiseAbs2();
+  } else {
+    velocity.covariance_enu_m2ps2.diagonal() = kAnyVelocity_mps.cwiseAbs2();
+  }
+  return velocity;
+}
+
 void Motion::Learn(const SessionEstimate& estimate) {
   if (estimate.status != EstimateStatus::kFix || !estimate.has_velocity) return;
-  has_velocity_ = true;
-  time_ns_ = estimate.time_ns;
-  velocity_in_ecef_mps_ =
-      EnuFromEcefRotation(estimate.position).transpose() * estimate.velocity_enu_mps;
-  covariance_enu_m2ps2_ = estimate.velocity_covariance_enu_m2ps2;
+  TakeIfSurer({estimate.time_ns,
+               EnuFromEcefRotation(estimate.position).transpose() * estimate.velocity_enu_mps,
+               estimate.velocity_covariance_enu_m2ps2});
+}
+
+void Motion::LearnPlace(const SessionEstimate& estimate) {
+  if (estimate.status != EstimateStatus::kFix) return;
+  const std::optional<Place> before = place_;
+  place_ = Place{estimate.time_ns, estimate.position_in_ecef, estimate.covariance_enu_m2};
+  if (!before) return;
+  const double seconds = Seconds(before->time_ns, estimate.time_ns);
+  if (seconds < kNearest_s || seconds > kFarthest_s) return;
+  Velocity found;
+  found.time_ns = estimate.time_ns;
+  found.in_ecef_mps = (estimate.position_in_ecef - before->in_ecef_m) / seconds;
+  found.covariance_enu_m2ps2 =
+      (before->covariance_enu_m2 + estimate.covariance_enu_m2) / (seconds * seconds);
+  // It is that of the middle between the two.
+  found.covariance_enu_m2ps2.diagonal() += (0.5 * seconds * kChange_mps2).cwiseAbs2();
+  TakeIfSurer(found);
+}
+
+void Motion::TakeIfSurer(const Velocity& found) {
+  const auto spread = [](const Velocity& velocity) {
+    return velocity.covariance_enu_m2ps2.topLeftCorner<2, 2>().trace();
+  };
+  const double age_s =
+      velocity_ ? std::abs(Seconds(velocity_->time_ns, found.time_ns)) : kVelocityLasts_s;
+  if (spread(found) < spread(At(age_s))) velocity_ = found;
 }
 
 Displacement Motion::Between(std::int64_t from_ns, std::int64_t to_ns) const {
   const double seconds = Seconds(from_ns, to_ns);
+  const double age_s = velocity_ ? std::max(std::abs(Seconds(velocity_->time_ns, from_ns)),
+                                            std::abs(Seconds(velocity_->time_ns, to_ns)))
+                                 : kVelocityLasts_s;
+  const Velocity velocity = At(age_s);
   Displacement moved;
-  const double age_s =
-      std::max(std::abs(Seconds(time_ns_, from_ns)), std::abs(Seconds(time_ns_, to_ns)));
-  if (has_velocity_ && age_s < kVelocityLasts_s) {
-    moved.in_ecef_m = velocity_in_ecef_mps_ * seconds;
-    moved.covariance_enu_m2 = covariance_enu_m2ps2_;
-    moved.covariance_enu_m2.diagonal() += (kChange_mps2 * age_s).cwiseAbs2();
-  } else {
-    moved.covariance_enu_m2.diagonal() = kAnyVelocity_mps.cwiseAbs2();
-  }
-  moved.covariance_enu_m2 *= seconds * seconds;
+  moved.in_ecef_m = velocity.in_ecef_mps * seconds;
+  moved.covariance_enu_m2 = velocity.covariance_enu_m2ps2 * (seconds * seconds);
   return moved;
+}
+
+void Motion::Forget() {
+  velocity_.reset();
+  place_.reset();
 }
 
 }  // namespace lodemark

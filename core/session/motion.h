@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 
 #include "core/session/session.h"
 
@@ -14,19 +15,35 @@ struct Displacement {
   Eigen::Matrix3d covariance_enu_m2 = Eigen::Matrix3d::Zero();
 };
 
-// Carries the last velocity on: by Doppler where it is recent, else by what phones in hands and
-// cars do.
+// Carries a velocity on, that of Doppler or that from one photograph to the next, whichever is
+// surer by now; without one a phone may be in a hand or in a car.
 class Motion {
  public:
+  // The velocity of an epoch, if it has one.
   void Learn(const SessionEstimate& estimate);
+  // A place that a photograph fixed: two of them a few seconds apart make a velocity.
+  void LearnPlace(const SessionEstimate& estimate);
   Displacement Between(std::int64_t from_ns, std::int64_t to_ns) const;
-  void Forget() { has_velocity_ = false; }
+  void Forget();
 
  private:
-  bool has_velocity_ = false;
-  std::int64_t time_ns_ = 0;
-  Eigen::Vector3d velocity_in_ecef_mps_ = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance_enu_m2ps2_ = Eigen::Matrix3d::Zero();
+  struct Velocity {
+    std::int64_t time_ns = 0;
+    Eigen::Vector3d in_ecef_mps = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d covariance_enu_m2ps2 = Eigen::Matrix3d::Zero();
+  };
+  struct Place {
+    std::int64_t time_ns = 0;
+    Eigen::Vector3d in_ecef_m = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d covariance_enu_m2 = Eigen::Matrix3d::Zero();
+  };
+
+  // What is known of the velocity at a time; zero with a broad covariance if nothing is.
+  Velocity At(double age_s) const;
+  void TakeIfSurer(const Velocity& found);
+
+  std::optional<Velocity> velocity_;
+  std::optional<Place> place_;
 };
 
 }  // namespace lodemark

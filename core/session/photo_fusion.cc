@@ -163,6 +163,7 @@ void PhotoFusion::EstimateAtSighting(EpochSolver* solver, SessionEstimate* estim
     }
   }
   last_fix_ = *estimate;
+  if (estimate->photo == PhotoOutcome::kUsed) motion_.LearnPlace(*estimate);
 }
 
 const PhotoPart& PhotoFusion::PartAt(std::int64_t time_ns) {
