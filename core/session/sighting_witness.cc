@@ -175,6 +175,8 @@ void SightingWitness::Judge(const PhotoSighting& sighting,
   const Eigen::Matrix3d enu_from_ecef = EnuFromEcefRotation(estimate->position);
   estimate->has_orientation = true;
   estimate->camera_from_enu = camera_from_ecef * Eigen::Quaterniond(enu_from_ecef.transpose());
+  // Resection left out what is no match here.
+  for (LandmarkStatus& status : *statuses) status.verdict = LandmarkVerdict::kOutlier;
   for (std::size_t k = 0; k < matches_.size(); ++k) {
     LandmarkStatus& status = (*statuses)[matches_[k]];
     if (witness_ == &bearings_) {
@@ -184,6 +186,8 @@ void SightingWitness::Judge(const PhotoSighting& sighting,
     }
     status.verdict = VerdictOf(status.weight);
     if (status.verdict == LandmarkVerdict::kUsed) ++estimate->landmarks_used;
+  }
+  for (LandmarkStatus& status : *statuses) {
     const Eigen::Vector3d ray = status.landmark_in_ecef - camera_in_ecef;
     const std::optional<Eigen::Vector2d> predicted = sighting.lens.Project(camera_from_ecef * ray);
     if (!predicted) continue;
