@@ -11,6 +11,8 @@ namespace lodemark {
 Result<BuildingScene> BuildingsOf(const FeatureMap& map) {
   if (map.info().building_parts == 0) return BuildingScene();
   Result<std::vector<BuildingPart>> parts = map.BuildingParts();
+  // What version 1 of the format kept of them is of no use.
+  if (!parts && parts.error().code == ErrorCode::kUnsupported) return BuildingScene();
   if (!parts) return parts.error();
   std::map<std::string, std::uint32_t> numbers;
   std::uint32_t next = 0;
