@@ -294,7 +294,7 @@ void GatherScene(const std::vector<RunFolder>& runs, const std::string& recordin
   for (const RunLandmarks& run : landmarks) joined.Add(run);
   joined.Finish(frame, &report.scene, &report.runs);
   report.scene.photos = DrawnPhotos(photos, start_ns, remarks);
-  report.scene.buildings = BuildingsNear(files.map, frame, report.runs, remarks);
+  report.scene.buildings = BuildingsNear(files.map, frame, start_ns, report.runs, remarks);
 }
 
 }  // namespace

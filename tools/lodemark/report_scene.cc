@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/map/feature_map.h"
+#include "core/session/map_frame.h"
 #include "tools/lodemark/csv_table.h"
 #include "tools/lodemark/run_folder.h"
 #include "tools/photos/photo_file.h"
@@ -58,7 +59,7 @@ Result<std::string> SmallJpeg(const Photo& photo) {
   return EncodePicture(picture, "photograph.jpg", kJpegQuality);
 }
 
-// The box around what the runs and their landmarks cover, grown by kBuildingsWithin_m.
+// The box around what the runs' estimates cover, grown by kBuildingsWithin_m.
 struct Box {
   double least_m[2] = {INFINITY, INFINITY};
   double greatest_m[2] = {-INFINITY, -INFINITY};
@@ -164,6 +165,7 @@ std::vector<ReportPhoto> DrawnPhotos(const std::vector<ListedPhoto>& photos, std
 }
 
 std::vector<ReportBuilding> BuildingsNear(const std::string& map, const EnuFrame& frame,
+                                          std::int64_t time_gps_ns,
                                           const std::vector<ReportRun>& runs,
                                           std::vector<std::string>* remarks) {
   std::vector<ReportBuilding> buildings;
@@ -190,7 +192,7 @@ std::vector<ReportBuilding> BuildingsNear(const std::string& map, const EnuFrame
       if (epoch.answered) box.Add(epoch.east_m, epoch.north_m);
     }
   }
-  const EnuFrame map_frame(info.origin);
+  const EnuFrame map_frame = FrameForFix(info, YearOfGps(time_gps_ns)).frame;
   for (const BuildingPart& part : *parts) {
     ReportBuilding shown;
     shown.name = part.building;

@@ -37,9 +37,10 @@ std::vector<ListedPhoto> PhotosToDraw(const std::string& photo_list, std::int64_
 std::vector<ReportPhoto> DrawnPhotos(const std::vector<ListedPhoto>& photos, std::int64_t start_ns,
                                      std::vector<std::string>* remarks);
 
-// Parts of the map's buildings near the places, seen from above. None, with a remark, if the map
-// cannot be read.
+// Parts of the map's buildings near the runs' estimates, seen from above, in the datum of fixes at
+// the time. None, with a remark, if the map cannot be read.
 std::vector<ReportBuilding> BuildingsNear(const std::string& map, const EnuFrame& frame,
+                                          std::int64_t time_gps_ns,
                                           const std::vector<ReportRun>& runs,
                                           std::vector<std::string>* remarks);
 

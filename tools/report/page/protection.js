@@ -31,7 +31,7 @@ function drawStanford(title, level, errorsOf) {
     const full = left + size + right, height = top + size + bottom;
     const place = v => (Math.min(high, Math.max(low, Math.log10(Math.max(v, 1e-9)))) - low) / (high - low) * size;
     const x = v => left + place(v), y = v => top + size - place(v);
-    const root = svg('svg', {viewBox: `0 0 ${full} ${height}`, height, style: `width:${full}px;max-width:100%;margin:0 auto`, role: 'img', 'aria-label': `${title}: protection level against error. ${texts.join('; ')}.${drawnOnly}`});
+    const root = svg('svg', {viewBox: `0 0 ${full} ${height}`, height, style: `width:${full}px;max-width:100%;margin:0 auto`, role: 'img', 'aria-label': `${title}: protection level against error. ${texts.join('; ')}${drawnOnly || '.'}`});
     const id = `hatch-${level}`;
     root.append(svg('defs', {}, svg('pattern', {id, width: 7, height: 7, patternUnits: 'userSpaceOnUse', patternTransform: 'rotate(45)'}, svg('path', {d: 'M0 0V7', stroke: 'var(--rejected)', 'stroke-width': 1.6, 'stroke-opacity': 0.4}))));
     root.append(svg('path', {d: `M${left} ${top + size}H${left + size}V${top}Z`, fill: `url(#${id})`}));
