@@ -143,7 +143,8 @@ PointStatus CombinedAdjustment::Solve(std::span<const RangeObservation> observat
   asked.point.misfit = options.estimate_variance_components;
   PointStatus status =
       SolveAsWeighted(observations, start_in_ecef, biases, asked, witness, estimate, verdicts);
-  if (!options.estimate_variance_components) return status;
+  const bool has_both = status == PointStatus::kGood && estimate->witness == WitnessVerdict::kUsed;
+  if (!options.estimate_variance_components || !has_both) return status;
   GroupScale satellites;
   GroupScale landmarks;
   for (int round = 0; round < kMostComponentRounds; ++round) {
