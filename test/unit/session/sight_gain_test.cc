@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
-#include <random>
 #include <vector>
 
+#include "core/base/random.h"
 #include "core/session/epoch_solver.h"
 #include "core/session/sight_source.h"
 #include "test/unit/session/session_scene.h"
@@ -31,26 +32,24 @@ bool InSight(const LookAngles& look) {
 // Says of each satellite whether it is in sight, and is wrong as often as told.
 class Labels : public SightSource {
  public:
-  Labels(double wrong, unsigned seed) : wrong_(wrong), random_(seed) {}
+  Labels(double wrong, std::uint64_t seed) : wrong_(wrong), random_(seed) {}
 
   std::optional<double> ProbabilityOfSight(SatelliteId satellite, const LookAngles& look,
                                            double) override {
     const auto [found, is_new] = labels_.emplace(satellite, InSight(look));
-    if (is_new && std::bernoulli_distribution(wrong_)(random_)) found->second = !found->second;
+    if (is_new && random_.Uniform() < wrong_) found->second = !found->second;
     return found->second ? 1.0 : 0.0;
   }
 
  private:
   double wrong_;
-  std::mt19937 random_;
+  Random random_;
   std::map<SatelliteId, bool> labels_;
 };
 
 // What the receiver measures: a hidden satellite by way of the wall across, as far as it is heard
 // at all, weaker, and at times by two walls more.
-ObservationEpoch MeasureInStreet(const SessionScene& scene, std::mt19937* random) {
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> uniform;
+ObservationEpoch MeasureInStreet(const SessionScene& scene, Random* random) {
   const Eigen::Vector3d place = scene.PlaceAt(0.0);
   const Eigen::Matrix3d enu_from_ecef = EnuFromEcefRotation(scene.place);
   std::map<SatelliteId, LookAngles> looks;
@@ -60,17 +59,17 @@ ObservationEpoch MeasureInStreet(const SessionScene& scene, std::mt19937* random
   }
   ObservationEpoch epoch = scene.Epoch(0.0);
   std::erase_if(epoch.signals, [&](const SignalObservation& signal) {
-    return !InSight(looks.at(signal.satellite)) && uniform(*random) < 0.3;
+    return !InSight(looks.at(signal.satellite)) && random->Uniform() < 0.3;
   });
   for (SignalObservation& signal : epoch.signals) {
     const LookAngles& look = looks.at(signal.satellite);
-    signal.cn0_dbhz = 45.0 + 2.0 * normal(*random);
-    signal.pseudorange_m += kNoise_m * normal(*random);
+    signal.cn0_dbhz = 45.0 + 2.0 * random->Gaussian();
+    signal.pseudorange_m += kNoise_m * random->Gaussian();
     if (InSight(look)) continue;
-    const double walls = uniform(*random) < 0.7 ? 1.0 : 3.0;
+    const double walls = random->Uniform() < 0.7 ? 1.0 : 3.0;
     signal.pseudorange_m += 2.0 * walls * kToWall_m * std::abs(std::sin(look.azimuth_rad)) *
                             std::cos(look.elevation_rad);
-    signal.cn0_dbhz -= std::abs(8.0 + 5.0 * normal(*random));
+    signal.cn0_dbhz -= std::abs(8.0 + 5.0 * random->Gaussian());
   }
   return epoch;
 }
@@ -99,13 +98,13 @@ TEST(SightLinesInAStreet, KeepTwoThirdsOfTheirGainWithEverySeventhLabelWrong) {
   double wrong_m = 0.0;
   int fixes = 0;
   for (int draw = 0; draw < kDraws; ++draw) {
-    std::mt19937 random(static_cast<unsigned>(1000 + draw));
+    Random random(static_cast<std::uint64_t>(1000 + draw));
     SessionScene scene;
     scene.place.longitude_rad = 2.0 * kPi * draw / kDraws - kPi;
     scene.place.latitude_rad = 0.6 + 0.4 * draw / kDraws;
     const ObservationEpoch epoch = MeasureInStreet(scene, &random);
     Labels right(0.0, 1);
-    Labels wrong(0.15, static_cast<unsigned>(5000 + draw));
+    Labels wrong(0.15, static_cast<std::uint64_t>(5000 + draw));
     const std::optional<double> alone = Error_m(scene, epoch, nullptr);
     const std::optional<double> with_map = Error_m(scene, epoch, &right);
     const std::optional<double> with_wrong_map = Error_m(scene, epoch, &wrong);
