@@ -156,9 +156,9 @@ Result<Scenario> ScenarioFromJson(const std::string& file, std::string_view text
     scenario.phone_height_m = kPhotographer_m;
   }
   fields.Number("phone_height_m", 0.0, 50.0, &scenario.phone_height_m);
+  if (const std::optional<Error> error = fields.Verdict()) return *error;
   CheckOutdoors(scenario, &fields);
-  const std::optional<Error> error = fields.Verdict();
-  if (error) return *error;
+  if (const std::optional<Error> error = fields.Verdict()) return *error;
   return scenario;
 }
 
