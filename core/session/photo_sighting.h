@@ -51,7 +51,7 @@ struct PlacePrior {
 
 // Looks the photograph up, where it can be by the prior, and resects it. The prior narrows what is
 // asked of the map and nothing else: what comes out does not repeat it. A photograph of elsewhere
-// is no error. image: that of the frame. What walls hide from the prior is not looked up either;
+// is no error. image: that of the frame. What walls hide from the prior is not looked up at first;
 // sights: standing there, or saying nothing.
 Result<PhotoSighting> Sight(const FeatureMap& map, const MapFrame& map_frame,
                             const CameraFrame& frame, const std::optional<PlacePrior>& prior,

@@ -59,7 +59,8 @@ struct SessionOptions {
   WeightChoice weight = WeightChoice::kSignal;
   double elevation_a_m = 1.0;  // of kElevation
   double elevation_b_m = 1.0;
-  // From the residuals: a and b of kElevation, and of satellites and of landmarks a factor each.
+  // From the residuals: a and b of kElevation, and of satellites and of landmarks a factor each,
+  // where landmarks come as bearings.
   bool estimate_variance_components = false;
   bool estimate_zenith_delay = false;  // a tropospheric zenith delay in the state
   bool height_memory = false;          // a weak memory of the height

@@ -27,7 +27,7 @@ struct Features {
 struct DetectorOptions {
   DescriptorKind kind = DescriptorKind::kRootSift;
   int most_features = 4000;    // kept by contrast, spread over the image
-  int longest_side_px = 1600;  // larger photographs are scaled down to this first; 0: never
+  int longest_side_px = 1600;  // larger ones are scaled down first; 0: as WorkingSizeOf
 };
 
 // Error if the image is not one: no pixels, a size not in 1 .. 65535, a stride below the width, or

@@ -248,7 +248,8 @@ void AddMapBuildCommand(CLI::App& map, int* exit_code) {
       ->capture_default_str();
   command
       ->add_option("--longest-side", options->longest_side_px,
-                   "Larger photographs are scaled down to this, in pixels; 0 never")
+                   "Larger photographs are scaled down to this, in pixels; 0: SIFT to 12.5 "
+                   "megapixels, ORB never")
       ->check(CLI::Range(0, 65'535))
       ->capture_default_str();
   command->add_option("--ratio", options->ratio, "Nearest to second nearest descriptor")

@@ -101,7 +101,8 @@ void DeclareReplayOptions(CLI::App& command, ReplayOptions* options) {
       ->check(CLI::PositiveNumber)
       ->group(estimation);
   command
-      .add_flag("--variance-components", options->variance_components, "a and b from the residuals")
+      .add_flag("--variance-components", options->variance_components,
+                "a and b, and factors of both kinds of sights, from residuals")
       ->group(estimation);
   command.add_flag("--zenith-delay", options->zenith_delay, "Estimate a tropospheric delay")
       ->group(estimation);

@@ -482,7 +482,7 @@ LODEMARK_API lodemark_status lodemark_map_locate(
 #define LODEMARK_WEIGHT_ELEVATION 1 /* variance a^2 + b^2 / sin^2(elevation) */
 
 /* Bits of lodemark_session_options.flags. */
-#define LODEMARK_SESSION_VARIANCE_COMPONENTS 0x1u /* a and b of WEIGHT_ELEVATION from residuals */
+#define LODEMARK_SESSION_VARIANCE_COMPONENTS 0x1u /* from residuals: a and b, factors of groups */
 #define LODEMARK_SESSION_ZENITH_DELAY 0x2u        /* estimate a tropospheric zenith delay */
 #define LODEMARK_SESSION_HEIGHT_MEMORY 0x4u       /* a weak memory of the height */
 #define LODEMARK_SESSION_FIXED_BIASES 0x8u        /* learn no biases from past epochs */
@@ -692,9 +692,10 @@ LODEMARK_API lodemark_status lodemark_session_push_broadcast(
 
 /*
  * The map that photographs are looked up in; NULL for none. Where it has buildings, satellites
- * behind them are trusted less, and landmarks behind them are not looked for. It must stay open
- * while the session uses it, and be used by the same thread. LODEMARK_ERROR_BAD_DATA if its
- * buildings are damaged; the session then has no map.
+ * behind them are trusted less, and landmarks behind them are looked for only if the others give
+ * no pose, or around the pose they give. It must stay open while the session uses it, and be used
+ * by the same thread. LODEMARK_ERROR_BAD_DATA if its buildings are damaged; the session then has
+ * no map.
  */
 LODEMARK_API lodemark_status lodemark_session_use_map(lodemark_session* session, lodemark_map* map);
 
