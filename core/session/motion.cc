@@ -14,6 +14,9 @@ const Eigen::Vector3d kChange_mps2(1.0, 1.0, 0.3);
 // A velocity that is older than this is none any more: by then it is hardly surer.
 constexpr double kVelocityLasts_s = 5.0;
 
+// A photograph is mistaken more often than Doppler is, which is therefore kept so long.
+constexpr double kDopplerHolds_s = 2.0;
+
 // Two places nearer in time say little about the velocity; farther apart, little about that now.
 constexpr double kNearest_s = 0.2;
 constexpr double kFarthest_s = 4.0;
@@ -35,45 +38,42 @@ Motion::Velocity Motion::At(double age_s) const {
   return velocity;
 }
 
+double Motion::AgeAt(std::int64_t time_ns) const {
+  return velocity_ ? std::abs(Seconds(velocity_->time_ns, time_ns)) : kVelocityLasts_s;
+}
+
 void Motion::Learn(const SessionEstimate& estimate) {
   if (estimate.status != EstimateStatus::kFix || !estimate.has_velocity) return;
-  TakeIfSurer({estimate.time_ns,
+  velocity_ =
+      Velocity{estimate.time_ns,
                EnuFromEcefRotation(estimate.position).transpose() * estimate.velocity_enu_mps,
-               estimate.velocity_covariance_enu_m2ps2});
+               estimate.velocity_covariance_enu_m2ps2, true};
 }
 
-void Motion::LearnPlace(const SessionEstimate& estimate) {
-  if (estimate.status != EstimateStatus::kFix) return;
+void Motion::LearnPlace(std::int64_t time_ns, const Eigen::Vector3d& place_in_ecef,
+                        const Eigen::Matrix3d& covariance_enu_m2) {
   const std::optional<Place> before = place_;
-  place_ = Place{estimate.time_ns, estimate.position_in_ecef, estimate.covariance_enu_m2};
+  place_ = Place{time_ns, place_in_ecef, covariance_enu_m2};
   if (!before) return;
-  const double seconds = Seconds(before->time_ns, estimate.time_ns);
+  const double seconds = Seconds(before->time_ns, time_ns);
   if (seconds < kNearest_s || seconds > kFarthest_s) return;
+  if (velocity_ && velocity_->by_doppler && AgeAt(time_ns) < kDopplerHolds_s) return;
   Velocity found;
-  found.time_ns = estimate.time_ns;
-  found.in_ecef_mps = (estimate.position_in_ecef - before->in_ecef_m) / seconds;
+  found.time_ns = time_ns;
+  found.in_ecef_mps = (place_in_ecef - before->in_ecef_m) / seconds;
   found.covariance_enu_m2ps2 =
-      (before->covariance_enu_m2 + estimate.covariance_enu_m2) / (seconds * seconds);
+      (before->covariance_enu_m2 + covariance_enu_m2) / (seconds * seconds);
   // It is that of the middle between the two.
   found.covariance_enu_m2ps2.diagonal() += (0.5 * seconds * kChange_mps2).cwiseAbs2();
-  TakeIfSurer(found);
-}
-
-void Motion::TakeIfSurer(const Velocity& found) {
   const auto spread = [](const Velocity& velocity) {
     return velocity.covariance_enu_m2ps2.topLeftCorner<2, 2>().trace();
   };
-  const double age_s =
-      velocity_ ? std::abs(Seconds(velocity_->time_ns, found.time_ns)) : kVelocityLasts_s;
-  if (spread(found) < spread(At(age_s))) velocity_ = found;
+  if (spread(found) < spread(At(AgeAt(time_ns)))) velocity_ = found;
 }
 
 Displacement Motion::Between(std::int64_t from_ns, std::int64_t to_ns) const {
   const double seconds = Seconds(from_ns, to_ns);
-  const double age_s = velocity_ ? std::max(std::abs(Seconds(velocity_->time_ns, from_ns)),
-                                            std::abs(Seconds(velocity_->time_ns, to_ns)))
-                                 : kVelocityLasts_s;
-  const Velocity velocity = At(age_s);
+  const Velocity velocity = At(std::max(AgeAt(from_ns), AgeAt(to_ns)));
   Displacement moved;
   moved.in_ecef_m = velocity.in_ecef_mps * seconds;
   moved.covariance_enu_m2 = velocity.covariance_enu_m2ps2 * (seconds * seconds);

@@ -163,7 +163,11 @@ void PhotoFusion::EstimateAtSighting(EpochSolver* solver, SessionEstimate* estim
     }
   }
   last_fix_ = *estimate;
-  if (estimate->photo == PhotoOutcome::kUsed) motion_.LearnPlace(*estimate);
+  // The place by itself, not the estimate's, which has been carried from one moment to the other.
+  if (estimate->photo == PhotoOutcome::kUsed && sighting_->HasPose()) {
+    motion_.LearnPlace(time_ns, sighting_->frame.ToEcef(sighting_->pose.centre_in_enu_m()),
+                       sighting_->pose.covariance.topLeftCorner<3, 3>());
+  }
 }
 
 const PhotoPart& PhotoFusion::PartAt(std::int64_t time_ns) {

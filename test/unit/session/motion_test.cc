@@ -22,6 +22,12 @@ SessionEstimate FixAt(double time_s, const Eigen::Vector3d& place_in_enu, double
   return estimate;
 }
 
+void LearnPlace(double time_s, const Eigen::Vector3d& place_in_enu, double sigma_m,
+                Motion* motion) {
+  motion->LearnPlace(std::llround(time_s * 1e9), kFrame.ToEcef(place_in_enu),
+                     sigma_m * sigma_m * Eigen::Matrix3d::Identity());
+}
+
 Eigen::Vector3d MovedInEnu(const Displacement& moved) {
   return EnuFromEcefRotation({0.8, 0.3, 150.0}) * moved.in_ecef_m;
 }
@@ -53,8 +59,8 @@ TEST(Motion, CarriesDopplersVelocityOnAndForgetsItInSeconds) {
 
 TEST(Motion, TwoPhotographsMakeAVelocity) {
   Motion motion;
-  motion.LearnPlace(FixAt(20.0, {0, 0, 0}, 0.3));
-  motion.LearnPlace(FixAt(21.0, {9.0, 2.0, 0.0}, 0.3));
+  LearnPlace(20.0, {0, 0, 0}, 0.3, &motion);
+  LearnPlace(21.0, {9.0, 2.0, 0.0}, 0.3, &motion);
   const Displacement moved = motion.Between(Nanoseconds(21.0), Nanoseconds(21.1));
   EXPECT_NEAR((MovedInEnu(moved) - Eigen::Vector3d(0.9, 0.2, 0.0)).norm(), 0.0, 1e-3);
   // Two places of 0.3 m, a second apart, and what changed since their middle.
@@ -62,27 +68,34 @@ TEST(Motion, TwoPhotographsMakeAVelocity) {
   EXPECT_NEAR(std::sqrt(moved.covariance_enu_m2(0, 0)), 0.1 * expected_mps, 1e-9);
 }
 
-TEST(Motion, TakesTheSurerVelocity) {
+TEST(Motion, KeepsDopplerForTwoSeconds) {
   Motion motion;
   SessionEstimate doppler = FixAt(21.0, {0, 0, 0}, 5.0);
   doppler.has_velocity = true;
   doppler.velocity_enu_mps = {1.0, 0.0, 0.0};
   doppler.velocity_covariance_enu_m2ps2 = 0.01 * Eigen::Matrix3d::Identity();
   motion.Learn(doppler);
-  motion.LearnPlace(FixAt(20.0, {0, 0, 0}, 2.0));
-  motion.LearnPlace(FixAt(21.0, {8.0, 0.0, 0.0}, 2.0));
-  EXPECT_NEAR(MovedInEnu(motion.Between(Nanoseconds(21.0), Nanoseconds(22.0))).x(), 1.0, 1e-6);
-  doppler.velocity_enu_mps = {2.0, 0.0, 0.0};
-  doppler.velocity_covariance_enu_m2ps2 *= 1e4;
-  motion.Learn(doppler);
-  EXPECT_NEAR(MovedInEnu(motion.Between(Nanoseconds(21.0), Nanoseconds(22.0))).x(), 1.0, 1e-6);
+  LearnPlace(21.5, {0, 0, 0}, 0.1, &motion);
+  LearnPlace(22.5, {8.0, 0, 0}, 0.1, &motion);
+  EXPECT_NEAR(MovedInEnu(motion.Between(Nanoseconds(22.5), Nanoseconds(22.6))).x(), 0.1, 1e-6);
+  LearnPlace(23.5, {16.0, 0, 0}, 0.1, &motion);
+  EXPECT_NEAR(MovedInEnu(motion.Between(Nanoseconds(23.5), Nanoseconds(23.6))).x(), 0.8, 1e-4);
+}
+
+// Two photographs that hardly know where they are say less than a velocity of a second ago.
+TEST(Motion, TakesNoWorseVelocityFromPhotographs) {
+  Motion motion;
+  LearnPlace(20.0, {0, 0, 0}, 0.1, &motion);
+  LearnPlace(21.0, {5.0, 0, 0}, 0.1, &motion);
+  LearnPlace(22.0, {30.0, 0, 0}, 9.0, &motion);
+  EXPECT_NEAR(MovedInEnu(motion.Between(Nanoseconds(22.0), Nanoseconds(22.1))).x(), 0.5, 1e-4);
 }
 
 TEST(Motion, PlacesTooNearOrTooFarInTimeMakeNone) {
   for (const double apart_s : {0.05, 6.0}) {
     Motion motion;
-    motion.LearnPlace(FixAt(20.0, {0, 0, 0}, 0.1));
-    motion.LearnPlace(FixAt(20.0 + apart_s, {1.0, 0, 0}, 0.1));
+    LearnPlace(20.0, {0, 0, 0}, 0.1, &motion);
+    LearnPlace(20.0 + apart_s, {1.0, 0, 0}, 0.1, &motion);
     const double now_s = 20.0 + apart_s;
     EXPECT_EQ(motion.Between(Nanoseconds(now_s), Nanoseconds(now_s + 0.1)).in_ecef_m,
               Eigen::Vector3d::Zero());
@@ -105,7 +118,7 @@ TEST(Motion, ItsCovarianceHolds) {
     for (const double time_s : {0.0, 1.0}) {
       Eigen::Vector3d fixed = place(time_s);
       for (int k = 0; k < 3; ++k) fixed[k] += random.Gaussian(0.0, 0.5);
-      motion.LearnPlace(FixAt(time_s, fixed, 0.5));
+      LearnPlace(time_s, fixed, 0.5, &motion);
     }
     const Displacement moved = motion.Between(Nanoseconds(1.0), Nanoseconds(1.5));
     const Eigen::Vector2d error = (MovedInEnu(moved) - (place(1.5) - place(1.0))).head<2>();
