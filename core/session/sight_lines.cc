@@ -1,9 +1,8 @@
 #include "core/session/sight_lines.h"
 
-#include <algorithm>
-#include <cstddef>
-#include <limits>
 #include <utility>
+
+#include "core/sightline/ground.h"
 
 namespace lodemark {
 namespace {
@@ -15,21 +14,6 @@ constexpr double kLandmarkMargin_m = 5.0;
 constexpr double kHidden = 1.5 / static_cast<double>(UncertainViewpoint::kPoints);
 
 constexpr double kLightWavelength_m = 0.0;
-
-// Nobody is lower than the ground, and satellites alone tell heights badly: from below, houses
-// stand higher than they are. The ground is where the nearest house stands.
-double RaisedToGround(const BuildingScene& scene, const Eigen::Vector3d& place_in_enu_m) {
-  double nearest_m2 = std::numeric_limits<double>::infinity();
-  double ground_m = place_in_enu_m.z();
-  for (std::size_t part = 0; part < scene.part_count(); ++part) {
-    if (scene.bottom_m(part) == scene.base_m(part)) continue;  // raised
-    const double away_m2 = (scene.footprint(part).front() - place_in_enu_m.head<2>()).squaredNorm();
-    if (!(away_m2 < nearest_m2)) continue;
-    nearest_m2 = away_m2;
-    ground_m = scene.base_m(part);
-  }
-  return std::max(place_in_enu_m.z(), ground_m);
-}
 
 // Whoever is outside of all buildings with less than this is not where the map has it.
 constexpr double kLeastOutdoors = 0.1;
@@ -45,8 +29,7 @@ void SightLines::Stand(const EnuFrame& map_frame, const std::optional<PlacePrior
   answers_.clear();
   stands_ = place.has_value() && has_buildings();
   if (!stands_) return;
-  place_in_enu_m_ = map_frame.FromEcef(place->position_in_ecef);
-  place_in_enu_m_.z() = RaisedToGround(scene_, place_in_enu_m_);
+  place_in_enu_m_ = NotBelowGround(scene_, map_frame.FromEcef(place->position_in_ecef));
   map_from_local_ = map_frame.enu_from_ecef() *
                     EnuFromEcefRotation(GeodeticFromEcef(place->position_in_ecef)).transpose();
   viewpoint_.Stand(place_in_enu_m_,

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/units.h"
+#include "core/sightline/ground.h"
 #include "core/sightline/skyline.h"
 
 namespace lodemark {
@@ -41,7 +42,7 @@ SkyView::SkyView(const BuildingScene* scene, const EnuFrame& map_frame)
       nearest_m_(std::numeric_limits<double>::infinity()) {}
 
 SkyMoment SkyView::Look(const SkyPlace& place, std::span<const SkySatellite> satellites) {
-  const Eigen::Vector3d place_m = map_frame_.FromEcef(place.in_ecef);
+  const Eigen::Vector3d place_m = NotBelowGround(*scene_, map_frame_.FromEcef(place.in_ecef));
   const Eigen::Matrix3d map_from_local =
       map_frame_.enu_from_ecef() * EnuFromEcefRotation(GeodeticFromEcef(place.in_ecef)).transpose();
   const auto map_azimuth = [&](double azimuth_rad) {
