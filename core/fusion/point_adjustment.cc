@@ -18,6 +18,9 @@ namespace {
 // alike.
 constexpr double kDoubtful = 0.5;
 
+// So few ranges beyond what determines the unknowns.
+constexpr int kHardlyRedundant = 2;
+
 // Reflections last and come in families, so an epoch with many tells less than independent errors
 // would: the covariance grows by this much times their share.
 constexpr double kReflectionsAlike = 3.0;
@@ -124,11 +127,6 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
   if (estimate->iterations < 0) return estimate->status = PointStatus::kNotConverged;
   if (redundancy > 1) Reconsider(&problem, options.largest_iterations);
 
-  OtherModes others;
-  if (options.posterior_mean && redundancy > 0) {
-    others = FindOtherModes(&problem, options.largest_iterations, options.integrity_risk);
-  }
-
   // Information at the mode.
   Normals normals(problem.unknowns());
   ModelNormals(problem, &normals.matrix, &normals.right);
@@ -147,7 +145,14 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
     const double gross_share = 1.0 - terms.core_share - terms.late_share;
     doubtful += 1.0 - std::max(terms.core_share, gross_share);
   }
-  if (options.posterior_mean && redundancy > 0 && problem.clocks() > 0 && doubtful > kDoubtful) {
+  // Samples go to the other modes by themselves; where hardly a range contradicts, too few do.
+  const bool asks_elsewhere = options.posterior_mean && redundancy > 0;
+  const bool samples = asks_elsewhere && problem.clocks() > 0 && doubtful > kDoubtful;
+  OtherModes others;
+  if (asks_elsewhere && (!samples || redundancy <= kHardlyRedundant)) {
+    others = FindOtherModes(&problem, options.largest_iterations, options.integrity_risk);
+  }
+  if (samples) {
     if (!sampling_ || samples_ != options.posterior_samples) {
       samples_ = options.posterior_samples;
       sampling_.emplace(samples_);
