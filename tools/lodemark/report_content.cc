@@ -6,6 +6,7 @@
 
 #include "core/base/units.h"
 #include "core/geo/geodetic.h"
+#include "core/session/accuracy.h"
 #include "tools/lodemark/command.h"
 #include "tools/lodemark/compare_table.h"
 #include "tools/lodemark/progress_bar.h"
@@ -76,11 +77,10 @@ std::optional<Geodetic> OriginOf(const std::vector<RunFolder>& runs,
 // Half-widths of the middle 68 % of east and north. Where the covariance is unknown, the 68 %
 // radius stands for both.
 std::optional<std::array<double, 2>> HalfWidthsOf(const TrajectoryPoint& epoch) {
-  constexpr double kHalfWidth68_sigma = 0.99446;
   const auto& covariance = epoch.covariance_enu_m2;
   if (covariance[0] && covariance[2] && *covariance[0] >= 0.0 && *covariance[2] >= 0.0) {
-    return std::array{kHalfWidth68_sigma * std::sqrt(*covariance[0]),
-                      kHalfWidth68_sigma * std::sqrt(*covariance[2])};
+    return std::array{kHalfWidth68 * std::sqrt(*covariance[0]),
+                      kHalfWidth68 * std::sqrt(*covariance[2])};
   }
   if (epoch.accuracy_m) return std::array{*epoch.accuracy_m, *epoch.accuracy_m};
   return std::nullopt;

@@ -7,6 +7,7 @@
 
 #include "core/base/units.h"
 #include "tools/lodemark/command.h"
+#include "tools/report/report.h"
 
 namespace lodemark {
 namespace {
@@ -51,25 +52,12 @@ std::string Colour(double probability) {
 int ShadeOf(double probability) { return static_cast<int>(std::lround(probability * kShades)); }
 std::string ShadeColour(int shade) { return Colour(static_cast<double>(shade) / kShades); }
 
-std::string Escaped(const std::string& text) {
-  std::string escaped;
-  for (const char letter : text) {
-    switch (letter) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      default:
-        // XML has no control characters.
-        escaped += static_cast<unsigned char>(letter) < 0x20 ? '?' : letter;
-    }
+// XML has no control characters.
+std::string Escaped(std::string text) {
+  for (char& letter : text) {
+    if (static_cast<unsigned char>(letter) < 0x20) letter = '?';
   }
-  return escaped;
+  return EscapeHtml(text);
 }
 
 Eigen::Vector2d Place_px(double azimuth_rad, double elevation_rad) {
