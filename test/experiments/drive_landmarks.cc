@@ -1,8 +1,6 @@
 #include "test/experiments/drive_landmarks.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/base/random.h"

@@ -23,21 +23,12 @@ void ErrorStatistics::Add(const PositionError& error) {
   ++asked_;
   ++answered_;
   squares_m2_ += error.enu_m.cwiseAbs2();
-  worst_m_ = std::max(worst_m_, error.enu_m.norm());
   const double square = error.enu_m.dot(error.covariance_enu_m2.inverse() * error.enu_m);
   squares_ += square;
   inside_ += square < kSquareOf68 ? 1 : 0;
   if (error.bound_enu_m2.trace() < kNoBound_m2) {
     ++bounded_;
     traces_m2_ += error.bound_enu_m2.trace();
-  }
-  if (error.protection_level_m > 0.0) {
-    ++protected_;
-    misleading_ += error.enu_m.head<2>().norm() > error.protection_level_m ? 1 : 0;
-  }
-  if (error.vertical_protection_level_m > 0.0) {
-    ++protected_up_;
-    misleading_up_ += std::abs(error.enu_m.z()) > error.vertical_protection_level_m ? 1 : 0;
   }
 }
 
@@ -48,7 +39,5 @@ Eigen::Vector3d ErrorStatistics::rmse_enu_m() const {
 double ErrorStatistics::nees() const { return squares_ / 3.0 / std::max(answered_, 1); }
 double ErrorStatistics::within_68() const { return Share(inside_, answered_); }
 double ErrorStatistics::bound_m() const { return std::sqrt(traces_m2_ / std::max(bounded_, 1)); }
-double ErrorStatistics::protected_share() const { return Share(protected_, answered_); }
-double ErrorStatistics::protected_up_share() const { return Share(protected_up_, answered_); }
 
 }  // namespace lodemark

@@ -8,9 +8,7 @@ namespace lodemark {
 struct PositionError {
   Eigen::Vector3d enu_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_enu_m2 = Eigen::Matrix3d::Zero();  // as stated
-  double protection_level_m = 0.0;                              // 0: none
-  double vertical_protection_level_m = 0.0;
-  Eigen::Matrix3d bound_enu_m2 = Eigen::Matrix3d::Zero();  // not finite: none
+  Eigen::Matrix3d bound_enu_m2 = Eigen::Matrix3d::Zero();       // not finite: none
 };
 
 class ErrorStatistics {
@@ -22,27 +20,17 @@ class ErrorStatistics {
   double answered_share() const;
   Eigen::Vector3d rmse_enu_m() const;
   double rmse_m() const { return rmse_enu_m().norm(); }
-  double worst_m() const { return worst_m_; }
   double nees() const;       // mean squared error in the units of the covariance, over 3
   double within_68() const;  // share of the errors inside the ellipsoid that holds 68 %
   double bound_m() const;    // root of the mean trace, where there is a bound
-  int misleading() const { return misleading_; }        // beyond the horizontal level
-  int misleading_up() const { return misleading_up_; }  // beyond the vertical level
-  double protected_share() const;                       // of the answers, horizontally
-  double protected_up_share() const;
 
  private:
   int asked_ = 0;
   int answered_ = 0;
   int inside_ = 0;
   int bounded_ = 0;
-  int protected_ = 0;
-  int protected_up_ = 0;
-  int misleading_ = 0;
-  int misleading_up_ = 0;
   double squares_ = 0.0;
   double traces_m2_ = 0.0;
-  double worst_m_ = 0.0;
   Eigen::Vector3d squares_m2_ = Eigen::Vector3d::Zero();
 };
 

@@ -27,15 +27,13 @@ struct Levels {
   std::vector<double> level_m;
   std::vector<double> error_m;  // of the same
   int misleading = 0;
-  int beyond_half = 0;  // errors of more than half the level
-  double worst = 0.0;   // error over level
+  double worst = 0.0;  // error over level
 
   void Add(double error, double level) {
     if (!(level > 0.0)) return;
     level_m.push_back(level);
     error_m.push_back(error);
     misleading += error > level ? 1 : 0;
-    beyond_half += error > 0.5 * level ? 1 : 0;
     worst = std::max(worst, error / level);
   }
   void Print(int epochs) const {
@@ -59,15 +57,6 @@ int Run(const char* label, const FaultyEpochs& faults, int epochs) {
     several += answer->reflected + answer->mismatched > 1 ? 1 : 0;
     horizontal.Add(answer->horizontal_m(), answer->estimate.protection_level_m);
     vertical.Add(answer->up_m(), answer->estimate.vertical_protection_level_m);
-    if (std::getenv("LODEMARK_EXPERIMENT_DETAILS") != nullptr &&
-        (answer->IsMisleading() || answer->IsMisleadingUp())) {
-      std::fprintf(stderr,
-                   "%s %d/%d epoch %d: %d reflected, %d mismatched, %.2f of %.2f, %.2f of %.2f%s\n",
-                   label, faults.satellites, faults.landmarks, i, answer->reflected,
-                   answer->mismatched, answer->horizontal_m(), answer->estimate.protection_level_m,
-                   answer->up_m(), answer->estimate.vertical_protection_level_m,
-                   answer->used_landmarks ? "" : ", satellites alone");
-    }
   }
   std::printf("| %s | %d | %d | %.1f %% | %.1f %% | %.1f %% |", label, faults.satellites,
               faults.landmarks, 100.0 * answered / epochs, 100.0 * faulty / std::max(answered, 1),

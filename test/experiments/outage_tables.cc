@@ -44,8 +44,6 @@ std::optional<PositionError> ErrorOf(const DriveRecording& drive, const DriveAns
   error.enu_m =
       EnuFromEcefRotation(GeodeticFromEcef(*truth)) * (estimate.position_in_ecef - *truth);
   error.covariance_enu_m2 = estimate.covariance_enu_m2;
-  error.protection_level_m = estimate.protection_level_m;
-  error.vertical_protection_level_m = estimate.vertical_protection_level_m;
   error.bound_enu_m2 = answer.bound_enu_m2;
   return error;
 }
