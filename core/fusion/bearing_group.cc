@@ -213,14 +213,24 @@ bool BearingGroup::Agrees() const {
   return scale_ < kStillOff && 2 * agreeing > verdicts_.size();
 }
 
+void BearingGroup::TakeOut(std::size_t part, Normals* normals) const {
+  const double weight = verdicts_[part].weight / (scale_ * scale_);
+  if (!(weight > 0.0)) return;
+  const LinearBearing& linear = linear_[part];
+  normals->information.noalias() -= weight * linear.slope.transpose() * linear.slope;
+  normals->right.noalias() -= weight * linear.slope.transpose() * linear.residual;
+}
+
 PositionStatement BearingGroup::Without(std::size_t part) const {
   Normals normals = normals_;
-  const double weight = verdicts_[part].weight / (scale_ * scale_);
-  if (weight > 0.0) {
-    const LinearBearing& linear = linear_[part];
-    normals.information -= weight * linear.slope.transpose() * linear.slope;
-    normals.right -= weight * linear.slope.transpose() * linear.residual;
-  }
+  TakeOut(part, &normals);
+  return Stated(WithoutAttitude(normals));
+}
+
+PositionStatement BearingGroup::WithoutBoth(std::size_t part, std::size_t other) const {
+  Normals normals = normals_;
+  TakeOut(part, &normals);
+  TakeOut(other, &normals);
   return Stated(WithoutAttitude(normals));
 }
 

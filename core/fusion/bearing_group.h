@@ -51,6 +51,8 @@ class BearingGroup : public PositionWitness {
   std::size_t parts() const override { return bearings_.size(); }
   double WeightOf(std::size_t part) const override { return verdicts_[part].weight; }
   PositionStatement Without(std::size_t part) const override;
+  PositionStatement WithoutBoth(std::size_t part, std::size_t other) const override;
+  double wrong_probability() const override { return options_.wrong_probability; }
   GroupMisfit MisfitBeside(const Eigen::Matrix3d& information_pm2) const override;
   void ScaleSigmas(double factor) override { sigma_factor_ = factor; }
 
@@ -85,6 +87,7 @@ class BearingGroup : public PositionWitness {
   void Weigh();
   Normals Sum() const;
   void AddPriors(Normals* normals) const;
+  void TakeOut(std::size_t part, Normals* normals) const;
   static Reduced WithoutAttitude(const Normals& normals);
   PositionStatement Stated(const Reduced& reduced) const;
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/base/units.h"
-#include "core/fusion/witness_protection.h"
 #include "core/geo/geodetic.h"
 
 namespace lodemark {
@@ -24,9 +23,19 @@ constexpr int kMostComponentRounds = 8;
 // An estimate is one if every direction is known so well.
 constexpr double kNoPlace_m = 1e3;
 
-// Log of how much likelier satellites and witness speak of one place than of two. The satellites'
-// error is given the tails of Student's t, with as many degrees of freedom as ranges are redundant:
-// with none, nobody has checked them.
+// Log density of an error of the satellites by themselves. They are given the tails of Student's t,
+// with as many degrees of freedom as ranges are redundant: with none, nobody has checked them.
+double LogDensity(const Eigen::Vector3d& apart_m, const Eigen::Matrix3d& covariance_m2,
+                  int redundancy) {
+  const double square = apart_m.dot(covariance_m2.inverse() * apart_m);
+  const double freedom = 1.0 + std::max(redundancy, 0);
+  return std::lgamma(0.5 * (freedom + 3.0)) - std::lgamma(0.5 * freedom) -
+         1.5 * std::log(freedom * kPi) - 0.5 * std::log(covariance_m2.determinant()) -
+         0.5 * (freedom + 3.0) * std::log1p(square / freedom);
+}
+
+// Log of how much likelier satellites and witness speak of one place than of two, one beside the
+// other or anywhere.
 double LogOddsOfOnePlace(const PointEstimate& alone, const PositionStatement& statement,
                          const CombinedOptions& options) {
   Eigen::Vector3d offset_m;
@@ -35,18 +44,18 @@ double LogOddsOfOnePlace(const PointEstimate& alone, const PositionStatement& st
   const Eigen::Matrix3d enu_from_ecef =
       EnuFromEcefRotation(GeodeticFromEcef(statement.around_in_ecef));
   const Eigen::Vector3d apart_m =
-      statement.around_in_ecef + enu_from_ecef.transpose() * offset_m - alone.position_in_ecef;
+      offset_m + enu_from_ecef * (statement.around_in_ecef - alone.position_in_ecef);
   covariance_m2 += alone.covariance_enu_m2;
-  const Eigen::Vector3d apart_enu_m = enu_from_ecef * apart_m;
-  const double square = apart_enu_m.dot(covariance_m2.inverse() * apart_enu_m);
-  const double freedom = 1.0 + std::max(alone.redundancy, 0);
-  const double log_density = std::lgamma(0.5 * (freedom + 3.0)) - std::lgamma(0.5 * freedom) -
-                             1.5 * std::log(freedom * kPi) -
-                             0.5 * std::log(covariance_m2.determinant()) -
-                             0.5 * (freedom + 3.0) * std::log1p(square / freedom);
-  const double elsewhere = options.elsewhere_probability;
-  return log_density + std::log(options.elsewhere_volume_m3) +
-         std::log((1.0 - elsewhere) / elsewhere);
+  const double one_place = LogDensity(apart_m, covariance_m2, alone.redundancy);
+  const DisplacementRisk& displacement = options.displacement;
+  double two_places = options.elsewhere_probability / options.elsewhere_volume_m3;
+  if (displacement.probability > 0.0) {
+    covariance_m2.diagonal().array() += displacement.sigma_m * displacement.sigma_m;
+    two_places +=
+        displacement.probability * std::exp(LogDensity(apart_m, covariance_m2, alone.redundancy));
+  }
+  return one_place + std::log1p(-options.elsewhere_probability - displacement.probability) -
+         std::log(two_places);
 }
 
 double SigmasMoved(const PointEstimate& estimate, const Eigen::Vector3d& from_in_ecef) {
@@ -128,7 +137,9 @@ PointStatus CombinedAdjustment::SolveAsWeighted(
     return status == PointStatus::kGood ? PointStatus::kNotConverged : status;
   }
   estimate->witness = WitnessVerdict::kUsed;
-  WidenByParts(*witness, statement, options.point.integrity_risk, &estimate->point);
+  WidenByParts(*witness, statement, options.displacement,
+               estimate->has_satellites_alone ? &estimate->satellites_alone : nullptr,
+               options.point.integrity_risk, &estimate->point);
   return PointStatus::kGood;
 }
 

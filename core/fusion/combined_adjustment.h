@@ -10,6 +10,7 @@
 #include "core/fusion/observation.h"
 #include "core/fusion/point_adjustment.h"
 #include "core/fusion/position_witness.h"
+#include "core/fusion/witness_protection.h"
 
 namespace lodemark {
 
@@ -27,6 +28,8 @@ struct CombinedOptions {
   // large the region is in which it may then put the camera.
   double elsewhere_probability = 1e-3;
   double elsewhere_volume_m3 = 1e6;
+  // That all its landmarks are taken for others beside them, such as the next windows.
+  DisplacementRisk displacement = {1e-3, 5.0};
   // Estimates by how much the sigmas of satellites and of landmarks are wrong, each as a whole,
   // from how well they fit; groups with less redundancy keep theirs.
   bool estimate_variance_components = false;

@@ -34,6 +34,10 @@ class PositionWitness {
   virtual double WeightOf(std::size_t part) const = 0;
   // The statement of the last At without one part.
   virtual PositionStatement Without(std::size_t part) const = 0;
+  // The same without two different ones.
+  virtual PositionStatement WithoutBoth(std::size_t part, std::size_t other) const = 0;
+  // That a part is mistaken, before anything is known of how it fits.
+  virtual double wrong_probability() const = 0;
 
   // Of its observations at the last At, where all else has so much information on the position.
   // Nothing for a witness that cannot check itself.

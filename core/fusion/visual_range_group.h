@@ -23,6 +23,8 @@ class VisualRangeGroup : public PositionWitness {
   std::size_t parts() const override { return 0; }
   double WeightOf(std::size_t) const override { return 1.0; }
   PositionStatement Without(std::size_t) const override { return {}; }
+  PositionStatement WithoutBoth(std::size_t, std::size_t) const override { return {}; }
+  double wrong_probability() const override { return 0.0; }
 
  private:
   std::vector<Eigen::Vector3d> points_in_ecef_;

@@ -52,5 +52,72 @@ TEST(Integrity, LevelsReachToWhereWhatSeemsWrongIsRight) {
   }
 }
 
+// Two mistaken landmarks that agree hold a place at which a right one seems wrong.
+TEST(Integrity, LevelsDoWithoutEveryTwoLandmarks) {
+  FaultyEpochs epochs = OneInTwenty(0, 12);
+  epochs.stated_displacement.probability = 0.0;
+  const auto answer = AnswerFaultyEpoch(epochs, kSeed, 3704);
+  ASSERT_TRUE(answer.has_value());
+  EXPECT_EQ(answer->mismatched, 3);
+  EXPECT_GT(answer->horizontal_m(), 5.0);
+  EXPECT_FALSE(answer->IsMisleading());
+}
+
+// All landmarks agree on a place that a period of the wall's windows lies beside the true one: only
+// satellites can tell, and a level that fears it.
+TEST(Integrity, LevelsReachToWhereAWallsRepeatPutsTheCamera) {
+  constexpr int kEpochs = 60;
+  FaultyEpochs epochs;
+  epochs.repeated = 1.0;
+  for (const int satellites : {10, 3, 0}) {
+    epochs.satellites = satellites;
+    int unfeared = 0;
+    for (int i = 0; i < kEpochs; ++i) {
+      epochs.stated_displacement = {0.05, 5.0};
+      const auto answer = AnswerFaultyEpoch(epochs, kSeed, i);
+      if (!answer) continue;
+      EXPECT_FALSE(answer->IsMisleading()) << satellites << ' ' << i;
+      epochs.stated_displacement.probability = 0.0;
+      const auto careless = AnswerFaultyEpoch(epochs, kSeed, i);
+      unfeared += careless && careless->IsMisleading() ? 1 : 0;
+    }
+    EXPECT_GT(unfeared, kEpochs / 4) << satellites;
+  }
+}
+
+// Farther away satellites prove it, or the level reaches there.
+TEST(Integrity, SatellitesContradictARepeatFarBeside) {
+  constexpr int kEpochs = 60;
+  FaultyEpochs epochs;
+  epochs.repeated = 1.0;
+  epochs.stated_displacement.probability = 0.05;
+  epochs.least_period_m = epochs.largest_period_m = 20.0;
+  int whole = 0;
+  int used = 0;
+  for (int i = 0; i < kEpochs; ++i) {
+    const auto answer = AnswerFaultyEpoch(epochs, kSeed, i);
+    ASSERT_TRUE(answer.has_value()) << i;
+    EXPECT_FALSE(answer->IsMisleading()) << i;
+    if (answer->repeated < epochs.landmarks) continue;
+    ++whole;
+    used += answer->used_landmarks ? 1 : 0;
+  }
+  EXPECT_GT(whole, kEpochs / 4);
+  EXPECT_LT(used, whole);
+}
+
+// What is feared of a witness grows with how little else contradicts it.
+TEST(Integrity, TheFearOfARepeatShrinksWithSatellites) {
+  double before_m = 1e3;
+  for (const int satellites : {0, 5, 10, 20}) {
+    FaultyEpochs epochs;
+    epochs.satellites = satellites;
+    const auto answer = AnswerFaultyEpoch(epochs, kSeed, 1);
+    ASSERT_TRUE(answer.has_value());
+    EXPECT_LT(answer->estimate.protection_level_m, before_m) << satellites;
+    before_m = answer->estimate.protection_level_m;
+  }
+}
+
 }  // namespace
 }  // namespace lodemark
