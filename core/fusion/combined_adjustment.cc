@@ -117,7 +117,8 @@ PointStatus CombinedAdjustment::SolveAsWeighted(
   PointStatus status = PointStatus::kNotConverged;
   while (estimate->rounds < options.most_rounds) {
     ++estimate->rounds;
-    point_options.place = statement;
+    point_options.place =
+        options.point.place ? Together(statement, *options.point.place) : statement;
     // The mean over the error model once the mode is found.
     point_options.posterior_mean = settled && options.point.posterior_mean;
     status =

@@ -43,4 +43,11 @@ struct RangeRateObservation {
   double sigma_mps = 1.0;
 };
 
+// How much a distance changed from one moment to another: carrier phase, whose origin cancels.
+struct RangeChangeObservation {
+  Eigen::Vector3d direction_in_ecef = Eigen::Vector3d::Zero();  // unit, receiver to point
+  double change_m = 0.0;  // of the range, corrected for the motion of the point and its clock
+  double sigma_m = 0.01;
+};
+
 }  // namespace lodemark

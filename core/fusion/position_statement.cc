@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "core/geo/geodetic.h"
+
 namespace lodemark {
 
 int PositionStatement::Rank(double sigma_m) const {
@@ -34,6 +36,14 @@ PositionStatement PositionStatement::WithCommonError(
       (Eigen::Matrix3d::Identity() + information_pm2 * covariance_enu_m2).inverse();
   const Eigen::Matrix3d information = shrink * information_pm2;
   return {around_in_ecef, 0.5 * (information + information.transpose()), shrink * pull_pm};
+}
+
+// The axes of two points near by are parallel for this.
+PositionStatement Together(const PositionStatement& first, const PositionStatement& second) {
+  const Eigen::Vector3d apart_enu_m = EnuFromEcefRotation(GeodeticFromEcef(first.around_in_ecef)) *
+                                      (second.around_in_ecef - first.around_in_ecef);
+  return {first.around_in_ecef, first.information_pm2 + second.information_pm2,
+          first.pull_pm + second.pull_pm + second.information_pm2 * apart_enu_m};
 }
 
 }  // namespace lodemark

@@ -27,4 +27,7 @@ struct PositionStatement {
   PositionStatement WithCommonError(const Eigen::Matrix3d& covariance_enu_m2) const;
 };
 
+// What two independent statements say, around the point of the first.
+PositionStatement Together(const PositionStatement& first, const PositionStatement& second);
+
 }  // namespace lodemark

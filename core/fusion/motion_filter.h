@@ -1,0 +1,69 @@
+// Position and velocity carried from moment to moment: an error-state Kalman filter. Its time
+// update hears Doppler and carrier phase; what it then knows of the place is a statement like any
+// other.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/fusion/acceleration_memory.h"
+#include "core/fusion/observation.h"
+#include "core/fusion/position_statement.h"
+
+namespace lodemark {
+
+// What one observation of a time update was worth.
+struct MotionVerdict {
+  double residual = 0.0;  // m/s of a rate, m of a change
+  double weight = 0.0;    // 0..1
+};
+
+struct MotionVerdicts {
+  std::vector<MotionVerdict> rates;
+  std::vector<MotionVerdict> changes;
+  // False: too few of them fit one velocity, or one displacement, and none was used.
+  bool rates_agree = false;
+  bool changes_agree = false;
+};
+
+// By x, y, z earth-fixed: position, velocity, in metres and seconds.
+using MotionVector = Eigen::Matrix<double, 6, 1>;
+using MotionMatrix = Eigen::Matrix<double, 6, 6>;
+
+class MotionFilter {
+ public:
+  bool started() const { return started_; }
+  Eigen::Vector3d position_in_ecef() const { return state_.head<3>(); }
+  Eigen::Vector3d velocity_in_ecef_mps() const { return state_.tail<3>(); }
+  double clock_drift_mps() const { return clock_drift_mps_; }
+
+  // Begins at a position; nothing is known of the velocity but that it is a person's or a car's.
+  void Start(const Eigen::Vector3d& position_in_ecef, const Eigen::Matrix3d& covariance_enu_m2);
+  void Stop() { started_ = false; }
+
+  // Carries the state on. rates: at the new moment; changes: since the moment of the state. Both
+  // robustly: what contradicts the rest counts for little.
+  void Advance(double seconds, std::span<const RangeRateObservation> rates,
+               std::span<const RangeChangeObservation> changes, const MotionModel& model,
+               MotionVerdicts* verdicts);
+
+  // What is known of the position.
+  PositionStatement Place() const;
+  // Hears an independent statement around that place.
+  void Hear(const PositionStatement& said);
+
+  Eigen::Matrix3d PositionCovarianceEnu() const { return CovarianceEnu(0); }
+  Eigen::Matrix3d VelocityCovarianceEnu() const { return CovarianceEnu(3); }
+
+ private:
+  Eigen::Matrix3d CovarianceEnu(Eigen::Index first) const;
+
+  bool started_ = false;
+  MotionVector state_ = MotionVector::Zero();
+  MotionMatrix covariance_ = MotionMatrix::Zero();
+  double clock_drift_mps_ = 0.0;
+};
+
+}  // namespace lodemark
