@@ -29,6 +29,8 @@ static_assert(LODEMARK_SCHEME_TIGHT == static_cast<int>(Scheme::kTight));
 static_assert(LODEMARK_SCHEME_TIGHT_DIAGONAL == static_cast<int>(Scheme::kTightDiagonal));
 static_assert(LODEMARK_SCHEME_VISION == static_cast<int>(Scheme::kVision));
 static_assert(LODEMARK_SCHEME_GNSS == static_cast<int>(Scheme::kGnss));
+static_assert(LODEMARK_ESTIMATOR_EPOCH == static_cast<int>(Estimator::kEpoch));
+static_assert(LODEMARK_ESTIMATOR_FILTER == static_cast<int>(Estimator::kFilter));
 static_assert(LODEMARK_WEIGHT_SIGNAL == static_cast<int>(WeightChoice::kSignal));
 static_assert(LODEMARK_WEIGHT_ELEVATION == static_cast<int>(WeightChoice::kElevation));
 
@@ -48,7 +50,7 @@ lodemark_status CheckOptions(const lodemark_session_options& options) {
   check.Constant(options.troposphere, LODEMARK_TROPOSPHERE_NONE, "troposphere");
   check.Constant(options.weight, LODEMARK_WEIGHT_ELEVATION, "weight");
   check.Constant(options.scheme, LODEMARK_SCHEME_GNSS, "scheme");
-  check.Reserved(static_cast<std::uint32_t>(options.reserved));
+  check.Constant(options.estimator, LODEMARK_ESTIMATOR_FILTER, "estimator");
   check.Within(options.queue_capacity, 0, kLargestQueue, "queue_capacity");
   check.Within(options.elevation_mask_deg, -90.0, 90.0, "elevation_mask_deg");
   check.Within(options.smallest_cn0_dbhz, -1000.0, 1000.0, "smallest_cn0_dbhz");
@@ -62,6 +64,7 @@ SessionOptions ToSessionOptions(const lodemark_session_options& from) {
   SessionOptions to;
   to.time_base = from.time_base == LODEMARK_TIME_BASE_BOOT ? TimeBase::kBoot : TimeBase::kGps;
   to.scheme = static_cast<Scheme>(from.scheme);
+  to.estimator = static_cast<Estimator>(from.estimator);
   if (from.systems != 0) to.systems = from.systems;
   to.ionosphere = static_cast<IonosphereChoice>(from.ionosphere);
   to.troposphere = static_cast<TroposphereChoice>(from.troposphere);

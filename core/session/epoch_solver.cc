@@ -16,9 +16,11 @@ namespace {
 constexpr double kFarFromStart_m = 1000.0;
 
 // What the errors of orbits, clocks and atmosphere have in common moves a position whatever the
-// residuals say: 1 sigma a horizontal axis, and of the height.
-constexpr double kCommonHorizontal_m = 0.5;
-constexpr double kCommonVertical_m = 1.0;
+// residuals say: 1 sigma east, north, up.
+const Eigen::Vector3d kCommon_m(0.5, 0.5, 1.0);
+
+// A place carried on by the motion alone is one while it is known so well.
+constexpr double kWorstCoasted_m = 50.0;
 
 // Satellites that a position takes at least, with a height known from elsewhere or not.
 constexpr int kFewestSatellites = 4;
@@ -26,6 +28,18 @@ constexpr int kFewestSatellites = 4;
 // What a tropospheric model leaves in the zenith at worst, and what there is without one.
 constexpr double kZenithDelaySigma_m = 0.2;
 constexpr double kWholeZenithDelay_m = 2.5;
+
+void FillPlace(const Eigen::Vector3d& position_in_ecef, const Eigen::Matrix3d& covariance_enu_m2,
+               const Eigen::Matrix3d& by_ranges, SessionEstimate* estimate) {
+  estimate->position_in_ecef = position_in_ecef;
+  estimate->position = GeodeticFromEcef(position_in_ecef);
+  // What is common to all ranges moves the position as far as it rests on them.
+  estimate->covariance_enu_m2 =
+      covariance_enu_m2 + by_ranges * kCommon_m.cwiseAbs2().asDiagonal() * by_ranges.transpose();
+  estimate->accuracy_m =
+      RadiusOfProbability(estimate->covariance_enu_m2.topLeftCorner<2, 2>(), 0.68);
+  estimate->vertical_accuracy_m = kHalfWidth68 * std::sqrt(estimate->covariance_enu_m2(2, 2));
+}
 
 EstimateStatus StatusOf(PointStatus status) {
   switch (status) {
@@ -92,16 +106,18 @@ void EpochSolver::Solve(const ObservationEpoch& epoch, const PhotoPart& photo,
   }
   last_gps_ns_ = epoch.time_gps_ns;
   statuses->assign(epoch.signals.size(), SatelliteStatus());
-  estimate->status = SolvePosition(epoch, photo, statuses);
+  estimate->status = SolvePosition(estimate->time_ns, epoch, photo, statuses);
   estimate->photo = photo_;
   if (estimate->status == EstimateStatus::kTooFewSatellites && LacksOrbits(*statuses)) {
     estimate->status = EstimateStatus::kNoEphemeris;
   }
   if (estimate->status != EstimateStatus::kFix) {
     last_place_in_ecef_.reset();
+    Coast(estimate);
     return;
   }
   last_place_in_ecef_ = point_.position_in_ecef;
+  if (filters()) filter_.HearEpoch(model_, point_, verdicts_);
   FillPosition(estimate);
   Judge(estimate, statuses);
   SolveVelocity(estimate, statuses);
@@ -120,7 +136,8 @@ PointOptions EpochSolver::PointOptionsAt(std::int64_t time_gps_ns) const {
   return point_options;
 }
 
-EstimateStatus EpochSolver::SolvePosition(const ObservationEpoch& epoch, const PhotoPart& photo,
+EstimateStatus EpochSolver::SolvePosition(std::int64_t time_ns, const ObservationEpoch& epoch,
+                                          const PhotoPart& photo,
                                           std::vector<SatelliteStatus>* statuses) {
   photo_ = PhotoOutcome::kNone;
   modelled_ = false;
@@ -128,14 +145,19 @@ EstimateStatus EpochSolver::SolvePosition(const ObservationEpoch& epoch, const P
   model_.NoteStrengths(epoch, &weights_);
   const std::vector<double>& disagreements_m = code_rate_.Update(epoch);
   std::optional<Eigen::Vector3d> place = last_place_in_ecef_;
+  if (filters() && filter_.started()) place = filter_.PlaceAt(time_ns);
   if (!place) place = CoarsePosition(model_.CoarseRanges(epoch));
   if (!place) place = photo.start_in_ecef;
   if (!place) return EstimateStatus::kTooFewSatellites;
-  const PointOptions point_options = PointOptionsAt(epoch.time_gps_ns);
+  PointOptions point_options = PointOptionsAt(epoch.time_gps_ns);
   PointStatus status = PointStatus::kTooFew;
   for (int pass = 0; pass < 3; ++pass) {
     model_.Model(epoch, *place, ionosphere_, weights_, disagreements_m, statuses);
     modelled_ = true;
+    if (filters() && pass == 0) {
+      filter_.Advance(time_ns, epoch, model_);
+      point_options.place = filter_.Place();
+    }
     status = Adjust(*place, photo, options_.scheme != Scheme::kVision, point_options);
     if (status != PointStatus::kGood) break;
     const double moved_m = (point_.position_in_ecef - *place).norm();
@@ -170,15 +192,26 @@ PointStatus EpochSolver::Adjust(const Eigen::Vector3d& place, const PhotoPart& p
 
 void EpochSolver::SolvePhoto(const PhotoPart& photo, bool with_epoch, SessionEstimate* estimate) {
   photo_ = PhotoOutcome::kNone;
-  const std::optional<Eigen::Vector3d> place =
+  const bool carried = filters() && filter_.started();
+  std::optional<Eigen::Vector3d> place =
       photo.start_in_ecef ? photo.start_in_ecef : last_place_in_ecef_;
+  if (!place && carried) place = filter_.position_in_ecef();
   PointStatus status = PointStatus::kTooFew;
   if (place && !photo.empty()) {
-    status = Adjust(*place, photo, with_epoch && modelled_, PointOptionsAt(last_gps_ns_));
+    PointOptions point_options = PointOptionsAt(last_gps_ns_);
+    // The filter has heard the epoch.
+    if (carried) point_options.place = filter_.Place();
+    status = Adjust(*place, photo, with_epoch && modelled_ && !carried, point_options);
   }
   estimate->status = StatusOf(status);
   estimate->photo = photo_;
-  if (estimate->status != EstimateStatus::kFix) return;
+  if (filters() && estimate->status == EstimateStatus::kFix && photo_ == PhotoOutcome::kUsed) {
+    filter_.HearPhoto(estimate->time_ns, point_);
+  }
+  if (estimate->status != EstimateStatus::kFix) {
+    Coast(estimate);
+    return;
+  }
   FillPosition(estimate);
   DistinctSatellites used;
   for (std::size_t i = 0; i < satellite_ranges_; ++i) {
@@ -189,37 +222,39 @@ void EpochSolver::SolvePhoto(const PhotoPart& photo, bool with_epoch, SessionEst
   estimate->satellites_used = used.count();
 }
 
+std::int64_t EpochSolver::MomentFor(std::int64_t time_ns, std::int64_t reach_ns) {
+  if (!filter_.started()) return time_ns;
+  if (std::abs(time_ns - filter_.time_ns()) <= reach_ns) return filter_.time_ns();
+  if (time_ns > filter_.time_ns()) filter_.Advance(time_ns);
+  return filter_.time_ns();
+}
+
 std::span<const ObservationVerdict> EpochSolver::visual_verdicts() const {
   if (verdicts_.size() < satellite_ranges_) return {};
   return std::span<const ObservationVerdict>(verdicts_).subspan(satellite_ranges_);
 }
 
 void EpochSolver::FillPosition(SessionEstimate* estimate) const {
-  estimate->position_in_ecef = point_.position_in_ecef;
-  estimate->position = GeodeticFromEcef(point_.position_in_ecef);
-  // What is common to all ranges moves the position as far as it rests on them.
-  const Eigen::Matrix3d by_ranges = Eigen::Matrix3d::Identity() - point_.information_pm2.inverse() *
-                                                                      point_.stated_information_pm2;
-  const Eigen::Vector3d common_m(kCommonHorizontal_m, kCommonHorizontal_m, kCommonVertical_m);
-  const Eigen::Vector3d common_share = (by_ranges * common_m.asDiagonal()).rowwise().norm();
-  estimate->covariance_enu_m2 = point_.covariance_enu_m2 + by_ranges *
-                                                               common_m.cwiseAbs2().asDiagonal() *
-                                                               by_ranges.transpose();
-  estimate->accuracy_m =
-      RadiusOfProbability(estimate->covariance_enu_m2.topLeftCorner<2, 2>(), 0.68);
-  estimate->vertical_accuracy_m = kHalfWidth68 * std::sqrt(estimate->covariance_enu_m2(2, 2));
-  if (point_.protection_level_m > 0.0) {
-    estimate->protection_level_m = point_.protection_level_m + common_share.head<2>().maxCoeff();
-  }
-  if (point_.vertical_protection_level_m > 0.0) {
-    estimate->vertical_protection_level_m = point_.vertical_protection_level_m + common_share.z();
+  if (filters()) {
+    FillFromFilter(estimate);
+  } else {
+    const Eigen::Matrix3d by_ranges =
+        Eigen::Matrix3d::Identity() -
+        point_.information_pm2.inverse() * point_.stated_information_pm2;
+    FillPlace(point_.position_in_ecef, point_.covariance_enu_m2, by_ranges, estimate);
+    const Eigen::Vector3d common_m = (by_ranges * kCommon_m.asDiagonal()).rowwise().norm();
+    if (point_.protection_level_m > 0.0) {
+      estimate->protection_level_m = point_.protection_level_m + common_m.head<2>().maxCoeff();
+    }
+    if (point_.vertical_protection_level_m > 0.0) {
+      estimate->vertical_protection_level_m = point_.vertical_protection_level_m + common_m.z();
+    }
   }
   estimate->clock_bias_m = point_.clock_m;
   estimate->hdop = point_.hdop;
   estimate->vdop = point_.vdop;
   estimate->pdop = point_.pdop;
   estimate->tdop = point_.tdop;
-  estimate->sources = 0;
   if (satellite_ranges_ > 1) estimate->sources |= kSourceGnss;
   if (photo_ == PhotoOutcome::kUsed) estimate->sources |= kSourceVision;
 }
@@ -251,6 +286,7 @@ void EpochSolver::Judge(SessionEstimate* estimate, std::vector<SatelliteStatus>*
 }
 
 void EpochSolver::SolveVelocity(SessionEstimate* estimate, std::vector<SatelliteStatus>* statuses) {
+  if (filters()) return;
   if (!AdjustVelocity(model_.rates(), &velocity_, &rate_verdicts_)) return;
   const Eigen::Matrix3d enu_from_ecef = EnuFromEcefRotation(estimate->position);
   estimate->has_velocity = true;
@@ -265,6 +301,28 @@ void EpochSolver::SolveVelocity(SessionEstimate* estimate, std::vector<Satellite
     satellite.has_rate_residual = true;
     satellite.range_rate_residual_mps = rate_verdicts_[i].residual_mps;
   }
+}
+
+void EpochSolver::FillFromFilter(SessionEstimate* estimate) const {
+  FillPlace(filter_.position_in_ecef(), filter_.PositionCovarianceEnu(), filter_.ranged_share(),
+            estimate);
+  const Eigen::Matrix3d enu_from_ecef = EnuFromEcefRotation(estimate->position);
+  estimate->has_velocity = true;
+  estimate->velocity_enu_mps = enu_from_ecef * filter_.velocity_in_ecef_mps();
+  estimate->velocity_covariance_enu_m2ps2 = filter_.VelocityCovarianceEnu();
+  estimate->speed_accuracy_mps =
+      RadiusOfProbability(estimate->velocity_covariance_enu_m2ps2.topLeftCorner<2, 2>(), 0.68);
+  estimate->clock_drift_mps = filter_.clock_drift_mps();
+}
+
+bool EpochSolver::Coast(SessionEstimate* estimate) const {
+  if (!filters() || !filter_.started()) return false;
+  SessionEstimate carried = *estimate;
+  FillFromFilter(&carried);
+  if (carried.accuracy_m > kWorstCoasted_m) return false;
+  *estimate = carried;
+  estimate->status = EstimateStatus::kFix;
+  return true;
 }
 
 void EpochSolver::Learn() {
@@ -292,6 +350,7 @@ void EpochSolver::Learn() {
 }
 
 void EpochSolver::ForgetTime() {
+  filter_.Forget();
   code_rate_.Forget();
   height_.Forget();
   last_gps_ns_ = 0;

@@ -15,6 +15,7 @@
 #include "core/gnss/ionosphere.h"
 #include "core/gnss/satellite_orbits.h"
 #include "core/session/code_rate_check.h"
+#include "core/session/epoch_filter.h"
 #include "core/session/gnss_epoch.h"
 #include "core/session/height_memory.h"
 #include "core/session/range_weights.h"
@@ -40,12 +41,17 @@ class EpochSolver {
   IonosphereModel& ionosphere() { return ionosphere_; }
   void UseSights(SightSource* sights) { model_.UseSights(sights); }
 
-  // Fills all of *estimate but its times and the satellites seen, and one status per signal.
+  // Fills all of *estimate but its times, which are given, and the satellites seen; and one status
+  // per signal.
   void Solve(const ObservationEpoch& epoch, const PhotoPart& photo, SessionEstimate* estimate,
              std::vector<SatelliteStatus>* statuses);
   // The photograph with the ranges of the last epoch, where there are any, or without. The estimate
   // is of the moment of that epoch, and nothing is learned from it.
   void SolvePhoto(const PhotoPart& photo, bool with_epoch, SessionEstimate* estimate);
+
+  // At which moment a photograph of a time is to be heard: that of the filter if it is within
+  // reach, to which it is carried if not; its own without a filter at work.
+  std::int64_t MomentFor(std::int64_t time_ns, std::int64_t reach_ns);
 
   // Of landmarks that came as ranges, by the last solution.
   std::span<const ObservationVerdict> visual_verdicts() const;
@@ -58,12 +64,16 @@ class EpochSolver {
   void Forget();
 
  private:
-  EstimateStatus SolvePosition(const ObservationEpoch& epoch, const PhotoPart& photo,
-                               std::vector<SatelliteStatus>* statuses);
+  bool filters() const { return options_.estimator == Estimator::kFilter; }
+  EstimateStatus SolvePosition(std::int64_t time_ns, const ObservationEpoch& epoch,
+                               const PhotoPart& photo, std::vector<SatelliteStatus>* statuses);
   // Satellites and photograph from a place near by.
   PointStatus Adjust(const Eigen::Vector3d& place, const PhotoPart& photo, bool with_epoch,
                      const PointOptions& options);
   PointOptions PointOptionsAt(std::int64_t time_gps_ns) const;
+  void FillFromFilter(SessionEstimate* estimate) const;
+  // Where there was too little to adjust: the state of the filter, while it is good enough.
+  bool Coast(SessionEstimate* estimate) const;
   void SolveVelocity(SessionEstimate* estimate, std::vector<SatelliteStatus>* statuses);
   void FillPosition(SessionEstimate* estimate) const;
   void Judge(SessionEstimate* estimate, std::vector<SatelliteStatus>* statuses) const;
@@ -77,6 +87,7 @@ class EpochSolver {
   CodeRateCheck code_rate_;
   ClockBiases biases_;
   HeightMemory height_;
+  EpochFilter filter_;
   PointAdjustment adjustment_;
   CombinedAdjustment combined_adjustment_;
   CombinedEstimate combined_;

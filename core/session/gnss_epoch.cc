@@ -22,6 +22,9 @@ constexpr double kPreciseOrbitSigma_m = 0.1;
 // clock; this share of its sigma differs between them.
 constexpr double kIonosphereOwnShare = 0.4;
 
+// Of a carrier phase at 40 dBHz and above, reflections included.
+constexpr double kPhaseSigma_m = 0.008;
+
 // Code delay of a receiver differs between FDMA channels.
 constexpr double kGlonassChannelSigma_m = 2.0;
 
@@ -84,6 +87,7 @@ void GnssEpochModel::FindSatellites(const ObservationEpoch& epoch, const Satelli
   ranges_.clear();
   rates_.clear();
   rate_signals_.clear();
+  phases_.clear();
   for (std::size_t i = 0; i < epoch.signals.size(); ++i) {
     const SignalObservation& signal = epoch.signals[i];
     SatelliteStatus& status = (*statuses)[i];
@@ -163,7 +167,9 @@ void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d&
   ranges_.clear();
   rates_.clear();
   rate_signals_.clear();
+  phases_.clear();
   merged_.clear();
+  place_in_ecef_ = place_in_ecef;
   const Geodetic place = GeodeticFromEcef(place_in_ecef);
   const AtmosphereAbove atmosphere(options_, ionosphere, place, place_in_ecef, epoch.time_gps_ns);
   const Eigen::Matrix3d enu_from_ecef = EnuFromEcefRotation(place);
@@ -219,6 +225,7 @@ void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d&
     status.sigma_m = range.error.sigma_m;
 
     if (signal.Has(kHasDoppler)) AddRate(signal, prepared, place_in_ecef);
+    if (signal.Has(kHasCarrierPhase)) AddPhase(signal, prepared);
     used_.push_back(prepared);
     ranges_.push_back(range);
   }
@@ -267,6 +274,32 @@ void GnssEpochModel::AddRate(const SignalObservation& signal, const PreparedSign
   }
   rates_.push_back(rate);
   rate_signals_.push_back(prepared.index);
+}
+
+void GnssEpochModel::AddPhase(const SignalObservation& signal, const PreparedSignal& prepared) {
+  const double wavelength_m = kSpeedOfLight_mps / prepared.frequency_hz;
+  TrackedPhase phase;
+  phase.index = prepared.index;
+  phase.satellite = signal.satellite;
+  phase.signal = signal.signal;
+  phase.satellite_in_ecef = prepared.satellite_in_ecef;
+  // The ionosphere is as early in the phase as it is late in the code.
+  phase.phase_m = signal.carrier_phase_cycles * wavelength_m +
+                  kSpeedOfLight_mps * prepared.satellite.clock_bias_s + prepared.ionosphere_m -
+                  prepared.troposphere_m;
+  const double cn0_dbhz = signal.Has(kHasCn0) && signal.cn0_dbhz > 0.0 ? signal.cn0_dbhz : 40.0;
+  phase.sigma_m = kPhaseSigma_m * std::pow(10.0, std::max(0.0, 40.0 - cn0_dbhz) / 20.0);
+  if (signal.Has(kHasCarrierPhaseSigma)) {
+    phase.sigma_m = std::max(phase.sigma_m, signal.carrier_phase_sigma_m);
+  }
+  if (signal.Has(kHasDoppler)) {
+    phase.rate_mps =
+        -signal.doppler_hz * wavelength_m + kSpeedOfLight_mps * prepared.satellite.clock_drift_sps;
+  }
+  phase.orbit_gps_ns = prepared.satellite.precise ? 0 : prepared.satellite.reference_gps_ns;
+  phase.lost_lock = (signal.flags & kLossOfLock) != 0;
+  phase.half_cycle = (signal.flags & kHalfCycleAmbiguous) != 0;
+  phases_.push_back(phase);
 }
 
 void GnssEpochModel::CombineBands(const RangeWeights& weights) {

@@ -13,6 +13,7 @@
 #include "core/gnss/observation.h"
 #include "core/gnss/satellite_orbits.h"
 #include "core/session/code_rate_check.h"
+#include "core/session/phase_changes.h"
 #include "core/session/range_weights.h"
 #include "core/session/session.h"
 #include "core/session/sight_source.h"
@@ -95,6 +96,8 @@ class GnssEpochModel {
   const std::vector<RangeObservation>& ranges() const { return ranges_; }  // of used_signals
   const std::vector<RangeRateObservation>& rates() const { return rates_; }
   const std::vector<std::size_t>& rate_signals() const { return rate_signals_; }  // of the epoch
+  const std::vector<TrackedPhase>& phases() const { return phases_; }
+  const Eigen::Vector3d& place_in_ecef() const { return place_in_ecef_; }  // seen from
 
   void Forget() { groups_.Forget(); }
 
@@ -104,6 +107,8 @@ class GnssEpochModel {
                           double ionosphere_share) const;
   void AddRate(const SignalObservation& signal, const PreparedSignal& prepared,
                const Eigen::Vector3d& place_in_ecef);
+
+  void AddPhase(const SignalObservation& signal, const PreparedSignal& prepared);
 
   // Replaces the signals of a satellite by one range free of the ionosphere, where two bands
   // allow it.
@@ -118,6 +123,8 @@ class GnssEpochModel {
   std::vector<RangeObservation> ranges_;
   std::vector<RangeRateObservation> rates_;
   std::vector<std::size_t> rate_signals_;
+  std::vector<TrackedPhase> phases_;
+  Eigen::Vector3d place_in_ecef_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace lodemark

@@ -31,8 +31,11 @@ constexpr double kProtectionSigmas = 4.42;
 
 }  // namespace
 
-PhotoFusion::PhotoFusion(Scheme scheme, TimeBase time_base)
-    : scheme_(scheme), time_base_(time_base), queue_(kFrames) {}
+PhotoFusion::PhotoFusion(const SessionOptions& options)
+    : scheme_(options.scheme),
+      estimator_(options.estimator),
+      time_base_(options.time_base),
+      queue_(kFrames) {}
 
 Status PhotoFusion::UseMap(const FeatureMap* map) {
   map_ = nullptr;
@@ -125,7 +128,9 @@ void PhotoFusion::Look(EpochSolver* solver, SessionEstimate* estimate,
     }
   }
   queue_.Pop();
-  if (sighting_) EstimateAtSighting(solver, estimate, landmarks);
+  if (sighting_ || estimator_ == Estimator::kFilter) {
+    EstimateAtSighting(solver, estimate, landmarks);
+  }
 }
 
 void PhotoFusion::Take(PhotoSighting sighting, EpochSolver* solver, SessionEstimate* estimate,
@@ -139,15 +144,19 @@ void PhotoFusion::Take(PhotoSighting sighting, EpochSolver* solver, SessionEstim
 // Estimated at the moment of the epoch, then carried to that of the photograph.
 void PhotoFusion::EstimateAtSighting(EpochSolver* solver, SessionEstimate* estimate,
                                      std::vector<LandmarkStatus>* landmarks) {
-  const std::int64_t time_ns = sighting_->time_ns;
+  const std::int64_t time_ns = estimate->time_ns;
   const bool with_epoch =
       has_epoch_ && std::abs(time_ns - epoch_ns_) <= kReach_ns && scheme_ != Scheme::kVision;
-  const PhotoPart& part = PartAt(with_epoch ? epoch_ns_ : time_ns);
+  std::int64_t at_ns = with_epoch ? epoch_ns_ : time_ns;
+  if (estimator_ == Estimator::kFilter) at_ns = solver->MomentFor(at_ns, kReach_ns);
+  const PhotoPart& part = PartAt(at_ns);
+  estimate->time_ns = at_ns;
   solver->SolvePhoto(part, with_epoch, estimate);
+  estimate->time_ns = time_ns;
   Judge(*solver, estimate, landmarks);
   if (estimate->status != EstimateStatus::kFix) return;
-  if (with_epoch) {
-    const Displacement moved = motion_.Between(epoch_ns_, time_ns);
+  if (at_ns != time_ns) {
+    const Displacement moved = motion_.Between(at_ns, time_ns);
     estimate->position_in_ecef += moved.in_ecef_m;
     estimate->position = GeodeticFromEcef(estimate->position_in_ecef);
     estimate->covariance_enu_m2 += moved.covariance_enu_m2;
@@ -168,6 +177,13 @@ void PhotoFusion::EstimateAtSighting(EpochSolver* solver, SessionEstimate* estim
     motion_.LearnPlace(time_ns, sighting_->frame.ToEcef(sighting_->pose.centre_in_enu_m()),
                        sighting_->pose.covariance.topLeftCorner<3, 3>());
   }
+}
+
+const PhotoPart& PhotoFusion::PartForEpoch(std::int64_t time_ns) {
+  if (estimator_ != Estimator::kFilter) return PartAt(time_ns);
+  part_ = PhotoPart();
+  sighting_near_ = false;
+  return part_;
 }
 
 const PhotoPart& PhotoFusion::PartAt(std::int64_t time_ns) {

@@ -19,7 +19,7 @@ namespace lodemark {
 
 class PhotoFusion {
  public:
-  PhotoFusion(Scheme scheme, TimeBase time_base);
+  explicit PhotoFusion(const SessionOptions& options);
 
   // Fails, and uses none, if the map's buildings are damaged.
   Status UseMap(const FeatureMap* map);
@@ -42,6 +42,8 @@ class PhotoFusion {
 
   // What the latest photograph gives an epoch of the time; nothing where none is near.
   const PhotoPart& PartAt(std::int64_t time_ns);
+  // What an epoch is to be adjusted with: nothing where a filter has heard the photograph already.
+  const PhotoPart& PartForEpoch(std::int64_t time_ns);
   // After the epoch, or photograph, was solved with the last part.
   void Judge(const EpochSolver& solver, SessionEstimate* estimate,
              std::vector<LandmarkStatus>* landmarks) const;
@@ -57,6 +59,7 @@ class PhotoFusion {
   const MapFrame& FrameAt(std::int64_t time_gps_ns, EventLog* events);
 
   Scheme scheme_;
+  Estimator estimator_;
   TimeBase time_base_;
   const FeatureMap* map_ = nullptr;
   std::optional<MapFrame> map_frame_;  // once the date is known

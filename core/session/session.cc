@@ -41,9 +41,7 @@ bool NamesChannels(const AndroidEpoch& epoch) {
 
 struct Session::Impl {
   explicit Impl(const SessionOptions& session_options)
-      : options(session_options),
-        solver(session_options),
-        photos(session_options.scheme, session_options.time_base) {}
+      : options(session_options), solver(session_options), photos(session_options) {}
 
   struct QueuedEpoch {
     std::int64_t time_ns = 0;
@@ -262,7 +260,7 @@ void Session::Impl::Process(QueuedEpoch* queued) {
     solver.ForgetRanges();
   }
   solver.UseSights(photos.SightsAt(queued->time_ns, epoch.time_gps_ns, &events));
-  const PhotoPart& photo = photos.PartAt(queued->time_ns);
+  const PhotoPart& photo = photos.PartForEpoch(queued->time_ns);
   solver.Solve(epoch, photo, &estimate, &statuses);
   photos.Judge(solver, &estimate, &landmarks);
   photos.NoteEpoch(epoch.time_gps_ns, estimate);

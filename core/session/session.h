@@ -48,9 +48,16 @@ enum class Scheme : std::uint8_t {
   kGnss,           // satellites alone
 };
 
+// What the position of one moment takes from the moments before.
+enum class Estimator : std::uint8_t {
+  kEpoch,   // nothing but biases between signals: each epoch stands for itself
+  kFilter,  // place and velocity, carried on by Doppler and carrier phase
+};
+
 struct SessionOptions {
   TimeBase time_base = TimeBase::kGps;
   Scheme scheme = Scheme::kJoint;
+  Estimator estimator = Estimator::kEpoch;
   std::uint32_t systems = 0x7f;       // bit i: use System(i)
   double elevation_mask_rad = 0.087;  // 5 degrees
   double smallest_cn0_dbhz = 10.0;

@@ -63,7 +63,7 @@ FIELD(lodemark_session_options, elevation_a_m, 48);
 FIELD(lodemark_session_options, elevation_b_m, 56);
 FIELD(lodemark_session_options, seed, 64);
 FIELD(lodemark_session_options, scheme, 72);
-FIELD(lodemark_session_options, reserved, 76);
+FIELD(lodemark_session_options, estimator, 76);
 
 SIZE(lodemark_gnss_clock, 80);
 FIELD(lodemark_gnss_clock, struct_size, 0);

@@ -20,8 +20,13 @@ static_assert(LODEMARK_TROPOSPHERE_NONE == 2 && LODEMARK_WEIGHT_ELEVATION == 1);
 const std::vector<std::string> kSchemes = {"joint", "tight", "tight-diagonal", "vision", "gnss"};
 static_assert(LODEMARK_SCHEME_VISION == 3 && LODEMARK_SCHEME_GNSS == 4);
 
+// Photographs and satellites as far as there are any, filtered over time.
+constexpr const char* kFilterScheme = "ekf";
+
+constexpr const char* kAllSchemes = "joint, tight, tight-diagonal, vision, gnss, ekf";
+
 // What the design names and a later version will do.
-const std::vector<std::string> kLaterSchemes = {"ekf", "ekf-imu", "window", "batch"};
+const std::vector<std::string> kLaterSchemes = {"ekf-imu", "window", "batch"};
 
 // In an option of the C interface zero stands for the default; this is as good as zero.
 constexpr double kAlmostZero = 1e-9;
@@ -68,7 +73,8 @@ void DeclareReplayOptions(CLI::App& command, ReplayOptions* options) {
       ->group(estimation);
   command
       .add_option("--scheme", options->scheme,
-                  "joint, tight, tight-diagonal, vision or gnss; joint with a map, else gnss")
+                  "joint, tight, tight-diagonal, vision or gnss, each moment for itself, or ekf, "
+                  "filtered over time; joint with a map, else gnss")
       ->group(estimation);
   command.add_option("--systems", options->systems, "Only these: letters of GRECJIS")
       ->group(estimation);
@@ -131,13 +137,14 @@ Result<lodemark_session_options> SessionOptionsOf(const ReplayOptions& options) 
   const ReplayRequest& request = options.request;
   if (std::find(kLaterSchemes.begin(), kLaterSchemes.end(), options.scheme) !=
       kLaterSchemes.end()) {
-    return usage("--scheme " + options.scheme +
-                 ": not in this version; choose from joint, tight, tight-diagonal, vision, gnss");
+    return usage("--scheme " + options.scheme + ": not in this version; choose from " +
+                 kAllSchemes);
   }
-  const std::string scheme = SchemeOf(options);
+  std::string scheme = SchemeOf(options);
+  const bool filters = scheme == kFilterScheme;
+  if (filters) scheme = request.map.empty() ? "gnss" : "joint";
   if (std::find(kSchemes.begin(), kSchemes.end(), scheme) == kSchemes.end()) {
-    return usage("--scheme " + scheme +
-                 ": no such scheme; choose from joint, tight, tight-diagonal, vision, gnss");
+    return usage("--scheme " + scheme + ": no such scheme; choose from " + kAllSchemes);
   }
   if (scheme != "gnss" && options.request.map.empty()) {
     return usage("--scheme " + scheme +
@@ -168,6 +175,7 @@ Result<lodemark_session_options> SessionOptionsOf(const ReplayOptions& options) 
   flag(options.fixed_biases, LODEMARK_SESSION_FIXED_BIASES);
   flag(options.accept_unhealthy, LODEMARK_SESSION_ACCEPT_UNHEALTHY);
   to.scheme = IndexIn(kSchemes, scheme);
+  to.estimator = filters ? LODEMARK_ESTIMATOR_FILTER : LODEMARK_ESTIMATOR_EPOCH;
   to.ionosphere = IndexIn(kIonospheres, options.ionosphere);
   to.troposphere = IndexIn(kTropospheres, options.troposphere);
   to.weight = IndexIn(kWeights, options.weight);

@@ -478,6 +478,10 @@ LODEMARK_API lodemark_status lodemark_map_locate(
 #define LODEMARK_SCHEME_VISION 3         /* photographs alone */
 #define LODEMARK_SCHEME_GNSS 4           /* satellites alone */
 
+/* What the position of one moment takes from the moments before. */
+#define LODEMARK_ESTIMATOR_EPOCH 0  /* nothing but biases between signals */
+#define LODEMARK_ESTIMATOR_FILTER 1 /* place and velocity, by Doppler and carrier phase */
+
 #define LODEMARK_WEIGHT_SIGNAL 0    /* C/N0, elevation and reported uncertainty */
 #define LODEMARK_WEIGHT_ELEVATION 1 /* variance a^2 + b^2 / sin^2(elevation) */
 
@@ -504,7 +508,7 @@ typedef struct lodemark_session_options {
   double elevation_b_m;      /* of WEIGHT_ELEVATION; 0: 1 m */
   uint64_t seed;             /* of every random choice; 0: 1 */
   int32_t scheme;
-  int32_t reserved;
+  int32_t estimator;
 } lodemark_session_options;
 
 typedef struct lodemark_session lodemark_session;

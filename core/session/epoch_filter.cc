@@ -1,0 +1,193 @@
+#include "core/session/epoch_filter.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/geo/geodetic.h"
+
+namespace lodemark {
+namespace {
+
+// After a longer silence the place is looked for anew.
+constexpr double kLongestSilence_s = 120.0;
+
+// Most ranges fit nothing for so long: the place is lost.
+constexpr double kLongestUnexplained_s = 5.0;
+
+// Without ranges for so long, what the motion adds outweighs how the first epochs are counted.
+constexpr double kLongestCounting_s = 2.0;
+
+// An epoch's ranges fix a place no worse than this.
+constexpr double kWorstAlone_m = 50.0;
+
+// Between epochs, before it is known.
+constexpr double kUsual_s = 1.0;
+
+// What lasts follows the satellites in view within so many epochs.
+constexpr double kLastingGain = 0.02;
+
+// Photographs err alike as long as they show much the same landmarks.
+constexpr double kPhotosAlike_s = 3.0;
+
+// So many that more change nothing.
+constexpr double kVeryMany = 1e6;
+
+double Seconds(std::int64_t from_ns, std::int64_t to_ns) {
+  return 1e-9 * static_cast<double>(to_ns - from_ns);
+}
+
+bool Unexplained(std::span<const ObservationVerdict> verdicts) {
+  double explained = 0.0;
+  for (const ObservationVerdict& verdict : verdicts) {
+    explained += verdict.weight + verdict.late_share;
+  }
+  return explained < 0.5 * static_cast<double>(verdicts.size());
+}
+
+// Covariance of the place by the epoch's ranges alone.
+Eigen::Matrix3d Alone(const PointEstimate& point) {
+  const Eigen::Matrix3d information = point.information_pm2 - point.stated_information_pm2;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(information);
+  const Eigen::Vector3d variances =
+      axes.eigenvalues().cwiseMax(1.0 / (kWorstAlone_m * kWorstAlone_m)).cwiseInverse();
+  return axes.eigenvectors() * variances.asDiagonal() * axes.eigenvectors().transpose();
+}
+
+Eigen::Matrix3d Inverse(const Eigen::Matrix3d& symmetric) {
+  return symmetric.ldlt().solve(Eigen::Matrix3d::Identity());
+}
+
+}  // namespace
+
+std::optional<Eigen::Vector3d> EpochFilter::PlaceAt(std::int64_t time_ns) const {
+  if (!filter_.started()) return std::nullopt;
+  return filter_.position_in_ecef() + Seconds(time_ns_, time_ns) * filter_.velocity_in_ecef_mps();
+}
+
+void EpochFilter::Advance(std::int64_t time_ns, const ObservationEpoch& epoch,
+                          const GnssEpochModel& model) {
+  const Eigen::Vector3d place = PlaceAt(time_ns).value_or(model.place_in_ecef());
+  const std::span<const RangeChangeObservation> changes =
+      phases_.Update(epoch.time_gps_ns, place, model.phases());
+  // Phases tell what became of the last epoch's place, not of any other's.
+  const bool from_epoch = time_ns_ == epoch_ns_;
+  seconds_ = epoch_ns_ == 0 ? 0.0 : Seconds(epoch_ns_, time_ns);
+  epoch_ns_ = time_ns;
+  rates_ = model.rates();
+  for (std::size_t i = 0; i < rates_.size(); ++i) {
+    rates_[i].sigma_mps *= trust_.SigmaFactor(epoch.signals[model.rate_signals()[i]].satellite);
+  }
+  changes_.clear();
+  if (from_epoch) changes_.assign(changes.begin(), changes.end());
+  for (std::size_t i = 0; i < changes_.size(); ++i) {
+    changes_[i].sigma_m *= trust_.SigmaFactor(epoch.signals[phases_.signals()[i]].satellite);
+  }
+  const Eigen::Vector3d velocity_before = filter_.velocity_in_ecef_mps();
+  const double silent_before_s = silent_s_;
+  Move(time_ns);
+  if (!filter_.started() || (!verdicts_.rates_agree && !verdicts_.changes_agree)) return;
+  silent_s_ = 0.0;
+  if (silent_before_s > 0.0) return;
+  accelerations_.Learn(seconds_, EnuFromEcefRotation(GeodeticFromEcef(place)) *
+                                     (filter_.velocity_in_ecef_mps() - velocity_before));
+}
+
+void EpochFilter::Advance(std::int64_t time_ns) {
+  rates_.clear();
+  changes_.clear();
+  Move(time_ns);
+}
+
+void EpochFilter::Move(std::int64_t time_ns) {
+  const double seconds = Seconds(time_ns_, time_ns);
+  time_ns_ = time_ns;
+  if (!filter_.started()) return;
+  if (!(seconds > 0.0) || seconds > kLongestSilence_s) {
+    filter_.Stop();
+    return;
+  }
+  silent_s_ += seconds;
+  if (silent_s_ > kLongestCounting_s) epochs_ = kVeryMany;
+  filter_.Advance(seconds, rates_, changes_, accelerations_.After(silent_s_), &verdicts_);
+}
+
+std::optional<PositionStatement> EpochFilter::Place() const {
+  if (!filter_.started()) return std::nullopt;
+  return filter_.Place();
+}
+
+void EpochFilter::HearEpoch(const GnssEpochModel& model, const PointEstimate& point,
+                            std::span<const ObservationVerdict> verdicts) {
+  trust_.Learn(seconds_, model.used_signals(), verdicts);
+  const RangedErrors errors = persistence_.Shares();
+  if (!filter_.started()) {
+    unexplained_s_ = 0.0;
+    silent_s_ = kUsual_s;
+    epochs_ = 1.0;
+    lasting_m2_ = errors.lasting * point.covariance_enu_m2;
+    ranged_share_.setIdentity();
+    filter_.Start(point.position_in_ecef, errors.AlikeEpochs(kUsual_s) * point.covariance_enu_m2);
+    return;
+  }
+  if (Unexplained(verdicts)) {
+    unexplained_s_ += seconds_;
+    if (unexplained_s_ > kLongestUnexplained_s) filter_.Stop();
+    return;
+  }
+  unexplained_s_ = 0.0;
+  const double seconds = seconds_ > 0.0 ? seconds_ : kUsual_s;
+  Hear(point, 1.0 / errors.AlikeEpochs(seconds), true);
+  epochs_ += 1.0;
+  lasting_m2_ += kLastingGain * (errors.lasting * Alone(point) - lasting_m2_);
+  persistence_.Learn(seconds_, model.used_signals(), verdicts);
+}
+
+void EpochFilter::HearPhoto(std::int64_t time_ns, const PointEstimate& point) {
+  if (!filter_.started()) {
+    time_ns_ = time_ns;
+    silent_s_ = kUsual_s;
+    ranged_share_.setZero();
+    filter_.Start(point.position_in_ecef, point.covariance_enu_m2);
+  } else {
+    const double since_s = photo_ns_ == 0 ? kPhotosAlike_s : std::abs(Seconds(photo_ns_, time_ns));
+    Hear(point, std::min(1.0, since_s / kPhotosAlike_s), false);
+  }
+  epochs_ = kVeryMany;
+  photo_ns_ = time_ns;
+}
+
+void EpochFilter::Hear(const PointEstimate& point, double share, bool ranged) {
+  const PositionStatement before = filter_.Place();
+  const Eigen::Matrix3d enu_from_ecef =
+      EnuFromEcefRotation(GeodeticFromEcef(before.around_in_ecef));
+  // What was added, as a normal error; of a direction less may be known than before.
+  const Eigen::Matrix3d information = Inverse(point.covariance_enu_m2);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(information - before.information_pm2);
+  PositionStatement said;
+  said.around_in_ecef = before.around_in_ecef;
+  said.information_pm2 = share * axes.eigenvectors() *
+                         axes.eigenvalues().cwiseMax(0.0).asDiagonal() *
+                         axes.eigenvectors().transpose();
+  said.pull_pm =
+      share * information * (enu_from_ecef * (point.position_in_ecef - before.around_in_ecef));
+  filter_.Hear(said);
+  const Eigen::Matrix3d gain = filter_.PositionCovarianceEnu() * said.information_pm2;
+  ranged_share_ -= gain * ranged_share_;
+  if (ranged) ranged_share_ += gain;
+}
+
+// Each epoch counts alike, so the first are believed less than they are worth.
+Eigen::Matrix3d EpochFilter::PositionCovarianceEnu() const {
+  const RangedErrors errors = persistence_.Shares();
+  const double seconds = seconds_ > 0.0 ? seconds_ : kUsual_s;
+  const double worth = errors.OfMean(epochs_, seconds) * epochs_ / errors.AlikeEpochs(seconds);
+  return worth * filter_.PositionCovarianceEnu() +
+         ranged_share_ * lasting_m2_ * ranged_share_.transpose();
+}
+
+void EpochFilter::Forget() { *this = EpochFilter(); }
+
+}  // namespace lodemark

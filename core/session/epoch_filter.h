@@ -1,0 +1,78 @@
+// The filter over a session's moments: carries what is known of the place from one to the next, and
+// takes what the adjustment of an epoch or a photograph makes of it.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/fusion/acceleration_memory.h"
+#include "core/fusion/motion_filter.h"
+#include "core/fusion/point_adjustment.h"
+#include "core/fusion/position_statement.h"
+#include "core/session/error_persistence.h"
+#include "core/session/gnss_epoch.h"
+#include "core/session/phase_changes.h"
+#include "core/session/satellite_trust.h"
+
+namespace lodemark {
+
+// Times are the session's.
+class EpochFilter {
+ public:
+  bool started() const { return filter_.started(); }
+  std::int64_t time_ns() const { return time_ns_; }
+  Eigen::Vector3d position_in_ecef() const { return filter_.position_in_ecef(); }
+  Eigen::Vector3d velocity_in_ecef_mps() const { return filter_.velocity_in_ecef_mps(); }
+  double clock_drift_mps() const { return filter_.clock_drift_mps(); }
+  // As they are to be stated: with what no averaging takes away.
+  Eigen::Matrix3d PositionCovarianceEnu() const;
+  Eigen::Matrix3d VelocityCovarianceEnu() const { return filter_.VelocityCovarianceEnu(); }
+  // How far the position rests on ranges: it moves by this times what moves them all.
+  const Eigen::Matrix3d& ranged_share() const { return ranged_share_; }
+
+  // Where the receiver is about to be found; empty before the first fix.
+  std::optional<Eigen::Vector3d> PlaceAt(std::int64_t time_ns) const;
+
+  // Carries the state to an epoch that was modelled near PlaceAt, or to a moment without one.
+  void Advance(std::int64_t time_ns, const ObservationEpoch& epoch, const GnssEpochModel& model);
+  void Advance(std::int64_t time_ns);
+
+  // What is known of the place before the moment's own observations are heard.
+  std::optional<PositionStatement> Place() const;
+
+  // From the adjustment that heard Place() and the ranges of the epoch advanced to.
+  void HearEpoch(const GnssEpochModel& model, const PointEstimate& point,
+                 std::span<const ObservationVerdict> verdicts);
+  // From one that heard Place(), if there was one, and a photograph taken near time_ns().
+  void HearPhoto(std::int64_t time_ns, const PointEstimate& point);
+
+  void Forget();
+
+ private:
+  void Move(std::int64_t time_ns);
+  // Hears what an adjustment made of the present state, as strong as a share of it.
+  void Hear(const PointEstimate& point, double share, bool ranged);
+
+  MotionFilter filter_;
+  PhaseChanges phases_;
+  ErrorPersistence persistence_;
+  SatelliteTrust trust_;
+  AccelerationMemory accelerations_;
+  std::vector<RangeRateObservation> rates_;
+  std::vector<RangeChangeObservation> changes_;
+  MotionVerdicts verdicts_;
+  std::int64_t time_ns_ = 0;    // of the state
+  std::int64_t epoch_ns_ = 0;   // of the last epoch
+  std::int64_t photo_ns_ = 0;   // of the last photograph heard
+  double seconds_ = 0.0;        // between the last two epochs
+  double silent_s_ = 0.0;       // since a velocity was measured
+  double unexplained_s_ = 0.0;  // for so long most ranges have fitted nothing
+  double epochs_ = 0.0;         // heard since the filter began, or as good as
+  Eigen::Matrix3d lasting_m2_ = Eigen::Matrix3d::Zero();  // of ranges, whatever the time
+  Eigen::Matrix3d ranged_share_ = Eigen::Matrix3d::Zero();
+};
+
+}  // namespace lodemark
