@@ -20,6 +20,9 @@ constexpr double kApart = 100.0;
 // Where a pose is a hundred times as likely, the other one is out.
 constexpr double kOpenLogRatio = 4.6;
 
+// Times as many sights, of which the fewer do not say how noisy all are.
+constexpr int kManyTimes = 2;
+
 // Sights that agree with one pose only decide where their numbers differ by this many sigmas.
 constexpr double kSigmasOfCounts = 3.0;
 constexpr double kFewestOfTheirOwn = 4.0;
@@ -31,6 +34,14 @@ constexpr double kSmall = 0.05;
 
 // Squared sigmas per component up to which the second answer explains the inliers at all.
 constexpr double kPoorFit = 25.0;
+
+// Of the pose that fits more closely, unless so few sights agree with it that they may do so by
+// chance.
+double CommonNoise(const AdjustedPose& first, const AdjustedPose& second) {
+  if (kManyTimes * first.inliers < second.inliers) return second.noise_px;
+  if (kManyTimes * second.inliers < first.inliers) return first.noise_px;
+  return std::min(first.noise_px, second.noise_px);
+}
 
 }  // namespace
 
@@ -47,7 +58,7 @@ bool AreApart(const AdjustedPose& first, const AdjustedPose& second) {
 ModePreference Compare(const AdjustedPose& first, const AdjustedPose& second,
                        std::span<const LandmarkSight> sights, const Lens& lens,
                        const ResectionPriors& priors) {
-  const double noise_px = std::min(first.noise_px, second.noise_px);
+  const double noise_px = CommonNoise(first, second);
   const std::vector<double> of_first = SquaresInSigmas(first.pose, sights, lens, noise_px);
   const std::vector<double> of_second = SquaresInSigmas(second.pose, sights, lens, noise_px);
   const double image_px2 = static_cast<double>(lens.parameters().width_px) *
