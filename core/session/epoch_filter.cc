@@ -17,6 +17,10 @@ constexpr double kLongestSilence_s = 120.0;
 // Most ranges fit nothing for so long: the place is lost.
 constexpr double kLongestUnexplained_s = 5.0;
 
+// Ranges, in sum of probabilities, that must be likelier noise than anything else: without a lock all
+// of them look late.
+constexpr double kFewestOrdinary = 1.0;
+
 // Without ranges for so long, what the motion adds outweighs how the first epochs are counted.
 constexpr double kLongestCounting_s = 2.0;
 
@@ -40,11 +44,14 @@ double Seconds(std::int64_t from_ns, std::int64_t to_ns) {
 }
 
 bool Unexplained(std::span<const ObservationVerdict> verdicts) {
-  double explained = 0.0;
+  double ordinary = 0.0;
+  double late = 0.0;
   for (const ObservationVerdict& verdict : verdicts) {
-    explained += verdict.weight + verdict.late_share;
+    ordinary += verdict.weight;
+    late += verdict.late_share;
   }
-  return explained < 0.5 * static_cast<double>(verdicts.size());
+  return ordinary < kFewestOrdinary ||
+         ordinary + late < 0.5 * static_cast<double>(verdicts.size());
 }
 
 // Covariance of the place by the epoch's ranges alone.

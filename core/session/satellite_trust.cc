@@ -14,7 +14,7 @@ constexpr double kMemory_s = 2.0;
 
 // A reflection still changes about as the way there does; what fits nothing says nothing.
 constexpr double kTrustInReflections = 0.1;
-constexpr double kLargestFactor = 10.0;
+constexpr double kLargestFactor = 100.0;
 
 }  // namespace
 
