@@ -19,6 +19,8 @@ const char* lodemark_status_name(lodemark_status status) {
       return "NOTHING_QUEUED";
     case LODEMARK_NO_POSITION:
       return "NO_POSITION";
+    case LODEMARK_END_OF_LOG:
+      return "END_OF_LOG";
     case LODEMARK_ERROR_INVALID_ARGUMENT:
       return "INVALID_ARGUMENT";
     case LODEMARK_ERROR_UNSUPPORTED:

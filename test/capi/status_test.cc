@@ -34,10 +34,10 @@ TEST(Version, IsThatOfTheHeader) {
 
 TEST(StatusName, IsDifferentForEveryStatus) {
   std::set<std::string> names;
-  for (int status = LODEMARK_ERROR_INTERNAL; status <= LODEMARK_NO_POSITION; ++status) {
+  for (int status = LODEMARK_ERROR_INTERNAL; status <= LODEMARK_END_OF_LOG; ++status) {
     names.insert(lodemark_status_name(status));
   }
-  EXPECT_EQ(names.size(), 11u);
+  EXPECT_EQ(names.size(), 12u);
   EXPECT_EQ(names.count("UNKNOWN"), 0u);
   EXPECT_STREQ(lodemark_status_name(LODEMARK_ERROR_QUEUE_FULL), "QUEUE_FULL");
   EXPECT_STREQ(lodemark_status_name(77), "UNKNOWN");

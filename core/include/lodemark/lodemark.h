@@ -67,6 +67,7 @@ typedef int32_t lodemark_status;
 /* Good news without an answer. */
 #define LODEMARK_NOTHING_QUEUED 1 /* process: no epoch is waiting */
 #define LODEMARK_NO_POSITION 2    /* done, but what was given determines no trustworthy position */
+#define LODEMARK_END_OF_LOG 3     /* nothing was pushed: there is no more */
 /* The caller's move. */
 #define LODEMARK_ERROR_INVALID_ARGUMENT (-1) /* a value or a call that makes no sense */
 #define LODEMARK_ERROR_UNSUPPORTED (-2)      /* sound, but this version cannot serve it */
@@ -903,6 +904,25 @@ LODEMARK_API lodemark_status lodemark_session_events(const lodemark_session* ses
                                                      int32_t* count);
 
 LODEMARK_API lodemark_status lodemark_session_clear_events(lodemark_session* session);
+
+/* Log: what a phone recorded, pushed as if it came from the phone. */
+
+/* A GnssLogger text of any version, plain or gzip, read as far as it was pushed. */
+typedef struct lodemark_log lodemark_log;
+
+/* Opens a log file, UTF-8 path, into *log; after an error *log is NULL. Any file is safe. */
+LODEMARK_API lodemark_status lodemark_log_open(const char* path, lodemark_log** log);
+
+LODEMARK_API void lodemark_log_close(lodemark_log* log);
+
+/*
+ * Pushes the next epoch of the log, and first the broadcast messages before it. A session based on
+ * time since boot takes the time from the clock's elapsed realtime, or where the log lacks it from
+ * the receiver's hardware clock. LODEMARK_END_OF_LOG after the last epoch. After
+ * LODEMARK_ERROR_QUEUE_FULL the same epoch comes again, after any other refusal the next one.
+ * LODEMARK_ERROR_BAD_DATA at the end of a file that held no epoch, or that is cut short.
+ */
+LODEMARK_API lodemark_status lodemark_log_push_next(lodemark_log* log, lodemark_session* session);
 
 #ifdef __cplusplus
 }
