@@ -50,9 +50,8 @@ int main() {
 
   lodemark_solution solution = {};
   solution.struct_size = sizeof solution;
-  const lodemark_status status =
-      lodemark_position_solve(ranges.data(), static_cast<int32_t>(ranges.size()), &options,
-                              &solution, nullptr);
+  const lodemark_status status = lodemark_position_solve(
+      ranges.data(), static_cast<int32_t>(ranges.size()), &options, &solution, nullptr);
   if (status < 0) return Fail();
   std::printf("latitude %.5f longitude %.5f height %.0f m\n", solution.latitude_deg,
               solution.longitude_deg, solution.height_m);
