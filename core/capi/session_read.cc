@@ -129,6 +129,14 @@ lodemark_estimate ToC(const SessionEstimate& from) {
     to.present |= LODEMARK_ESTIMATE_HAS_VERTICAL_PROTECTION_LEVEL;
     to.vertical_protection_level_m = from.vertical_protection_level_m;
   }
+  if (from.satellite_sigma_factor > 0.0) {
+    to.present |= LODEMARK_ESTIMATE_HAS_SATELLITE_SIGMA_FACTOR;
+    to.satellite_sigma_factor = from.satellite_sigma_factor;
+  }
+  if (from.landmark_sigma_factor > 0.0) {
+    to.present |= LODEMARK_ESTIMATE_HAS_LANDMARK_SIGMA_FACTOR;
+    to.landmark_sigma_factor = from.landmark_sigma_factor;
+  }
   if (from.has_orientation) {
     to.present |= LODEMARK_ESTIMATE_HAS_ORIENTATION;
     const Eigen::Quaterniond& rotation = from.camera_from_enu;
@@ -178,6 +186,10 @@ lodemark_satellite ToC(const SatelliteStatus& from) {
   if (from.has_rate_residual) {
     to.present |= LODEMARK_SATELLITE_HAS_RANGE_RATE_RESIDUAL;
     to.range_rate_residual_mps = from.range_rate_residual_mps;
+  }
+  if (from.has_sight) {
+    to.present |= LODEMARK_SATELLITE_HAS_SIGHT;
+    to.sight_probability = from.sight_probability;
   }
   if (from.cn0_dbhz != 0.0) {
     to.present |= LODEMARK_SATELLITE_HAS_CN0;

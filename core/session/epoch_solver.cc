@@ -174,6 +174,7 @@ PointStatus EpochSolver::Adjust(const Eigen::Vector3d& place, const PhotoPart& p
   satellite_ranges_ = ranges_.size();
   ranges_.insert(ranges_.end(), photo.ranges.begin(), photo.ranges.end());
   const Eigen::Vector3d start = photo.start_in_ecef.value_or(place);
+  combined_ = CombinedEstimate();
   if (photo.witness == nullptr) {
     const PointStatus status = adjustment_.Solve(ranges_, photo.ranges.empty() ? place : start,
                                                  biases_, options, &point_, &verdicts_);
@@ -255,6 +256,12 @@ void EpochSolver::FillPosition(SessionEstimate* estimate) const {
   estimate->vdop = point_.vdop;
   estimate->pdop = point_.pdop;
   estimate->tdop = point_.tdop;
+  if (combined_.satellite_scale.estimated) {
+    estimate->satellite_sigma_factor = combined_.satellite_scale.sigma_factor;
+  }
+  if (combined_.landmark_scale.estimated) {
+    estimate->landmark_sigma_factor = combined_.landmark_scale.sigma_factor;
+  }
   if (satellite_ranges_ > 1) estimate->sources |= kSourceGnss;
   if (photo_ == PhotoOutcome::kUsed) estimate->sources |= kSourceVision;
 }

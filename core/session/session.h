@@ -144,6 +144,9 @@ struct SessionEstimate {
   double vertical_protection_level_m = 0.0;
   double clock_bias_m = 0.0;  // receiver clock minus GPS time, times c
   double clock_drift_mps = 0.0;
+  // Variance components, times what is stated; 0 where there is none.
+  double satellite_sigma_factor = 0.0;
+  double landmark_sigma_factor = 0.0;
   double hdop = 0.0;
   double vdop = 0.0;
   double pdop = 0.0;

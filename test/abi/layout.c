@@ -144,7 +144,7 @@ FIELD(lodemark_broadcast_message, message_id, 12);
 FIELD(lodemark_broadcast_message, submessage_id, 16);
 FIELD(lodemark_broadcast_message, reserved, 20);
 
-SIZE(lodemark_estimate, 392);
+SIZE(lodemark_estimate, 408);
 FIELD(lodemark_estimate, struct_size, 0);
 FIELD(lodemark_estimate, present, 4);
 FIELD(lodemark_estimate, outcome, 8);
@@ -176,6 +176,8 @@ FIELD(lodemark_estimate, photo, 376);
 FIELD(lodemark_estimate, landmarks_used, 380);
 FIELD(lodemark_estimate, landmarks_seen, 384);
 FIELD(lodemark_estimate, reserved, 388);
+FIELD(lodemark_estimate, satellite_sigma_factor, 392);
+FIELD(lodemark_estimate, landmark_sigma_factor, 400);
 
 SIZE(lodemark_frame, 64);
 FIELD(lodemark_frame, struct_size, 0);
@@ -198,7 +200,7 @@ FIELD(lodemark_landmark, range_m, 56);
 FIELD(lodemark_landmark, range_sigma_m, 64);
 FIELD(lodemark_landmark, landmark_in_ecef_m, 72);
 
-SIZE(lodemark_satellite, 88);
+SIZE(lodemark_satellite, 96);
 FIELD(lodemark_satellite, struct_size, 0);
 FIELD(lodemark_satellite, present, 4);
 FIELD(lodemark_satellite, system, 8);
@@ -213,6 +215,7 @@ FIELD(lodemark_satellite, elevation_deg, 56);
 FIELD(lodemark_satellite, azimuth_deg, 64);
 FIELD(lodemark_satellite, cn0_dbhz, 72);
 FIELD(lodemark_satellite, range_rate_residual_mps, 80);
+FIELD(lodemark_satellite, sight_probability, 88);
 
 SIZE(lodemark_event, 288);
 FIELD(lodemark_event, struct_size, 0);

@@ -108,6 +108,11 @@ ordered_json SummaryJson(const ReplayInputs& inputs, const MeasurementSource& so
   json["accuracy_m"] = accuracy(summary.Accuracy_m(0.5), summary.Accuracy_m(0.95));
   json["vertical_accuracy_m"] =
       accuracy(summary.VerticalAccuracy_m(0.5), summary.VerticalAccuracy_m(0.95));
+  if (summary.factors_found() > 0) {
+    ordered_json& factors = json["sigma_factors"] = {{"found", summary.factors_found()}};
+    if (summary.SatelliteFactor()) factors["satellites"] = *summary.SatelliteFactor();
+    if (summary.LandmarkFactor()) factors["landmarks"] = *summary.LandmarkFactor();
+  }
   json["signals"] = summary.signals();
   json["signals_used"] = summary.signals_used();
   json["verdicts"] = summary.Verdicts();

@@ -83,6 +83,12 @@ void ReplaySummary::AddEpoch(const lodemark_estimate& estimate,
     accuracies_m_.push_back(static_cast<float>(estimate.accuracy_m));
     vertical_accuracies_m_.push_back(static_cast<float>(estimate.vertical_accuracy_m));
   }
+  if ((estimate.present & LODEMARK_ESTIMATE_HAS_SATELLITE_SIGMA_FACTOR) != 0) {
+    satellite_factors_.push_back(static_cast<float>(estimate.satellite_sigma_factor));
+  }
+  if ((estimate.present & LODEMARK_ESTIMATE_HAS_LANDMARK_SIGMA_FACTOR) != 0) {
+    landmark_factors_.push_back(static_cast<float>(estimate.landmark_sigma_factor));
+  }
   signals_ += static_cast<std::int64_t>(signals.size());
   for (const lodemark_satellite& signal : signals) {
     CountAt(signal.verdict, &verdicts_);
@@ -118,6 +124,18 @@ std::optional<double> ReplaySummary::Accuracy_m(double share) const {
 
 std::optional<double> ReplaySummary::VerticalAccuracy_m(double share) const {
   return QuantileOf(vertical_accuracies_m_, share);
+}
+
+std::optional<double> ReplaySummary::SatelliteFactor() const {
+  return QuantileOf(satellite_factors_, 0.5);
+}
+
+std::optional<double> ReplaySummary::LandmarkFactor() const {
+  return QuantileOf(landmark_factors_, 0.5);
+}
+
+std::int64_t ReplaySummary::factors_found() const {
+  return static_cast<std::int64_t>(std::max(satellite_factors_.size(), landmark_factors_.size()));
 }
 
 std::map<std::string, std::int64_t> ReplaySummary::Outcomes() const {

@@ -42,6 +42,10 @@ class ReplaySummary {
   // Stated accuracies (68 %): the value that share of the answered epochs stay below.
   std::optional<double> Accuracy_m(double share) const;
   std::optional<double> VerticalAccuracy_m(double share) const;
+  // Middle variance components, times the stated sigmas; none where none were found.
+  std::optional<double> SatelliteFactor() const;
+  std::optional<double> LandmarkFactor() const;
+  std::int64_t factors_found() const;
 
   // By the word of the file, in its order there.
   std::map<std::string, std::int64_t> Outcomes() const;
@@ -71,6 +75,8 @@ class ReplaySummary {
   std::vector<float> intervals_s_;
   std::vector<float> accuracies_m_;
   std::vector<float> vertical_accuracies_m_;
+  std::vector<float> satellite_factors_;
+  std::vector<float> landmark_factors_;
   std::array<std::int64_t, LODEMARK_OUTCOME_AMBIGUOUS + 1> outcomes_ = {};
   std::array<std::int64_t, LODEMARK_VERDICT_PHOTO_NOT_USED + 1> verdicts_ = {};
   std::array<std::int64_t, LODEMARK_EVENT_MAP_DATUM + 1> events_ = {};

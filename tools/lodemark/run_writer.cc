@@ -106,7 +106,7 @@ Status RunWriter::Open(const std::string& folder, bool with_landmarks) {
   places_.SetSeparator(' ');
   satellites_.Raw(
       "time_gps_ns,satellite,signal,used,reason,residual_m,sigma_m,weight,elevation_deg,"
-      "azimuth_deg,cn0_dbhz,range_rate_residual_mps\n");
+      "azimuth_deg,cn0_dbhz,range_rate_residual_mps,sight_probability\n");
   if (landmarks_) {
     landmarks_->Raw(
         "time_gps_ns,landmark_id,used,reason,x_px,y_px,residual_x_px,residual_y_px,weight,range_m,"
@@ -247,6 +247,7 @@ void RunWriter::WriteEpoch(const lodemark_estimate& estimate,
     field(LODEMARK_SATELLITE_HAS_DIRECTION, signal.azimuth_deg, 2);
     field(LODEMARK_SATELLITE_HAS_CN0, signal.cn0_dbhz, 1);
     field(LODEMARK_SATELLITE_HAS_RANGE_RATE_RESIDUAL, signal.range_rate_residual_mps, 3);
+    field(LODEMARK_SATELLITE_HAS_SIGHT, signal.sight_probability, 3);
     satellites_.EndRow();
   }
   FlushNowAndThen();

@@ -750,6 +750,8 @@ LODEMARK_API lodemark_status lodemark_session_queued(const lodemark_session* ses
 #define LODEMARK_ESTIMATE_HAS_PROTECTION_LEVEL 0x8u
 #define LODEMARK_ESTIMATE_HAS_VERTICAL_PROTECTION_LEVEL 0x10u
 #define LODEMARK_ESTIMATE_HAS_ORIENTATION 0x20u
+#define LODEMARK_ESTIMATE_HAS_SATELLITE_SIGMA_FACTOR 0x40u
+#define LODEMARK_ESTIMATE_HAS_LANDMARK_SIGMA_FACTOR 0x80u
 
 /* Bits of lodemark_estimate.sources. */
 #define LODEMARK_SOURCE_GNSS 0x1u
@@ -800,6 +802,10 @@ typedef struct lodemark_estimate {
   int32_t landmarks_used; /* of the photograph */
   int32_t landmarks_seen;
   int32_t reserved;
+  /* Variance components, where they were asked for and satellites and landmarks tell them: how many
+   * times larger than stated their errors were taken for. */
+  double satellite_sigma_factor; /* HAS_SATELLITE_SIGMA_FACTOR */
+  double landmark_sigma_factor;  /* HAS_LANDMARK_SIGMA_FACTOR */
 } lodemark_estimate;
 
 /*
@@ -831,6 +837,7 @@ LODEMARK_API lodemark_status lodemark_session_estimate(const lodemark_session* s
 #define LODEMARK_SATELLITE_HAS_DIRECTION 0x2u           /* elevation_deg, azimuth_deg */
 #define LODEMARK_SATELLITE_HAS_RANGE_RATE_RESIDUAL 0x4u /* range_rate_residual_mps */
 #define LODEMARK_SATELLITE_HAS_CN0 0x8u                 /* cn0_dbhz */
+#define LODEMARK_SATELLITE_HAS_SIGHT 0x10u
 
 /* One signal of the epoch processed last. */
 typedef struct lodemark_satellite {
@@ -848,6 +855,7 @@ typedef struct lodemark_satellite {
   double azimuth_deg; /* clockwise from north, 0 .. 360 */
   double cn0_dbhz;
   double range_rate_residual_mps;
+  double sight_probability; /* HAS_SIGHT: 0 .. 1, that no building of the map stands in the way */
 } lodemark_satellite;
 
 /* The signals of the epoch processed last; none if it was a photograph. */
