@@ -57,6 +57,7 @@ std::optional<FaultyAnswer> AnswerTight(const FaultyEpochs& epochs, int number) 
     if (!pixel) continue;
     LandmarkSight sight;
     sight.pixel = *pixel;
+    sight.pixel_sigma_px = kBearingSigma_rad * lens.parameters().fx_px;
     sight.landmark_in_enu_m = scene.ranges.ErrorInEnu(bearing.point_in_ecef);
     sights.push_back(sight);
   }
