@@ -31,6 +31,7 @@ static_assert(LODEMARK_SCHEME_VISION == static_cast<int>(Scheme::kVision));
 static_assert(LODEMARK_SCHEME_GNSS == static_cast<int>(Scheme::kGnss));
 static_assert(LODEMARK_ESTIMATOR_EPOCH == static_cast<int>(Estimator::kEpoch));
 static_assert(LODEMARK_ESTIMATOR_FILTER == static_cast<int>(Estimator::kFilter));
+static_assert(LODEMARK_ESTIMATOR_SMOOTHER == static_cast<int>(Estimator::kSmoother));
 static_assert(LODEMARK_WEIGHT_SIGNAL == static_cast<int>(WeightChoice::kSignal));
 static_assert(LODEMARK_WEIGHT_ELEVATION == static_cast<int>(WeightChoice::kElevation));
 
@@ -50,7 +51,7 @@ lodemark_status CheckOptions(const lodemark_session_options& options) {
   check.Constant(options.troposphere, LODEMARK_TROPOSPHERE_NONE, "troposphere");
   check.Constant(options.weight, LODEMARK_WEIGHT_ELEVATION, "weight");
   check.Constant(options.scheme, LODEMARK_SCHEME_GNSS, "scheme");
-  check.Constant(options.estimator, LODEMARK_ESTIMATOR_FILTER, "estimator");
+  check.Constant(options.estimator, LODEMARK_ESTIMATOR_SMOOTHER, "estimator");
   check.Within(options.queue_capacity, 0, kLargestQueue, "queue_capacity");
   check.Within(options.elevation_mask_deg, -90.0, 90.0, "elevation_mask_deg");
   check.Within(options.smallest_cn0_dbhz, -1000.0, 1000.0, "smallest_cn0_dbhz");

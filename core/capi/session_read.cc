@@ -1,6 +1,7 @@
 // What a session has found out.
 #include <algorithm>
 #include <cstring>
+#include <vector>
 
 #include "core/base/units.h"
 #include "core/capi/guard.h"
@@ -231,6 +232,17 @@ lodemark_status lodemark_session_estimate(const lodemark_session* session,
     const SessionEstimate& found = session->engine->estimate();
     WriteStruct(ToC(found), estimate);
     return found.status == EstimateStatus::kFix ? LODEMARK_OK : LODEMARK_NO_POSITION;
+  });
+}
+
+lodemark_status lodemark_session_smoothed(const lodemark_session* session, lodemark_estimate* out,
+                                          int32_t capacity, int32_t* count) {
+  using namespace lodemark;
+  if (session == nullptr) return Fail(LODEMARK_ERROR_INVALID_ARGUMENT, "session is NULL");
+  return Guard([&] {
+    const std::vector<SessionEstimate> estimates = session->engine->Smoothed();
+    return WriteList<lodemark_estimate>(
+        estimates.size(), [&](std::size_t i) { return ToC(estimates[i]); }, out, capacity, count);
   });
 }
 

@@ -163,12 +163,12 @@ void Discard(std::vector<MotionVerdict>* verdicts) {
 void MotionFilter::Start(const Eigen::Vector3d& position_in_ecef,
                          const Eigen::Matrix3d& covariance_enu_m2) {
   started_ = true;
-  state_.setZero();
-  state_.head<3>() = position_in_ecef;
+  step_ = MotionStep();
+  step_.filtered.mean.head<3>() = position_in_ecef;
   const Eigen::Matrix3d enu_from_ecef = EnuFromEcefRotation(GeodeticFromEcef(position_in_ecef));
-  covariance_.setZero();
-  covariance_.topLeftCorner<3, 3>() = enu_from_ecef.transpose() * covariance_enu_m2 * enu_from_ecef;
-  covariance_.bottomRightCorner<3, 3>() = Turned(
+  MotionMatrix& covariance = step_.filtered.covariance;
+  covariance.topLeftCorner<3, 3>() = enu_from_ecef.transpose() * covariance_enu_m2 * enu_from_ecef;
+  covariance.bottomRightCorner<3, 3>() = Turned(
       enu_from_ecef, Eigen::Vector3d(kAnySpeed_mps * kAnySpeed_mps, kAnySpeed_mps * kAnySpeed_mps,
                                      kAnyClimb_mps * kAnyClimb_mps));
 }
@@ -180,7 +180,7 @@ void MotionFilter::Advance(double seconds, std::span<const RangeRateObservation>
   verdicts->changes.assign(changes.size(), MotionVerdict());
   verdicts->rates_agree = !rates.empty();
   verdicts->changes_agree = changes.size() >= kFewestChanges;
-  TimeUpdate update(state_, covariance_, seconds, model);
+  TimeUpdate update(step_.filtered.mean, step_.filtered.covariance, seconds, model);
   double rate_factor = 1.0;
   double change_factor = 1.0;
   const auto fill = [&](double width) {
@@ -242,36 +242,47 @@ void MotionFilter::Advance(double seconds, std::span<const RangeRateObservation>
     verdicts->changes_agree = false;
   }
   const Matrix covariance = update.Covariance();
-  state_.head<3>() += seconds * state_.tail<3>();
-  state_ += update.unknowns().segment<6>(kAfter);
   const MotionMatrix after = covariance.block<6, 6>(kAfter, kAfter);
-  covariance_ = 0.5 * (after + after.transpose());
+  const MotionVector& state = step_.filtered.mean;
+  MotionStep next;
+  next.begins = false;
+  next.before = {state + update.unknowns().head<6>(), covariance.topLeftCorner<6, 6>()};
+  next.predicted.mean = state + update.unknowns().segment<6>(kAfter);
+  next.predicted.mean.head<3>() += seconds * state.tail<3>();
+  next.predicted.covariance = 0.5 * (after + after.transpose());
+  next.gain = next.predicted.covariance.ldlt().solve(covariance.block<6, 6>(kAfter, 0)).transpose();
+  next.filtered = next.predicted;
+  step_ = next;
   clock_drift_mps_ = update.unknowns()[kDrift];
 }
 
 PositionStatement MotionFilter::Place() const {
   PositionStatement place;
-  place.around_in_ecef = state_.head<3>();
+  place.around_in_ecef = step_.filtered.mean.head<3>();
   place.information_pm2 = PositionCovarianceEnu().ldlt().solve(Eigen::Matrix3d::Identity());
   return place;
 }
 
 void MotionFilter::Hear(const PositionStatement& said) {
-  const Eigen::Matrix3d enu_from_ecef = EnuFromEcefRotation(GeodeticFromEcef(state_.head<3>()));
+  const Eigen::Matrix3d enu_from_ecef =
+      EnuFromEcefRotation(GeodeticFromEcef(step_.filtered.mean.head<3>()));
   const Eigen::Matrix3d information =
       enu_from_ecef.transpose() * said.information_pm2 * enu_from_ecef;
-  const Eigen::Matrix<double, 6, 3> cross = covariance_.leftCols<3>();
+  MotionMatrix& covariance = step_.filtered.covariance;
+  const Eigen::Matrix<double, 6, 3> cross = covariance.leftCols<3>();
   // (I + L P)^-1 L is the inverse of the innovation's covariance P + L^-1, L deficient or not.
   const Eigen::Matrix3d shrink =
-      (Eigen::Matrix3d::Identity() + information * covariance_.topLeftCorner<3, 3>()).inverse();
-  state_ += cross * (shrink * (enu_from_ecef.transpose() * said.pull_pm));
-  const MotionMatrix after = covariance_ - cross * (shrink * information) * cross.transpose();
-  covariance_ = 0.5 * (after + after.transpose());
+      (Eigen::Matrix3d::Identity() + information * covariance.topLeftCorner<3, 3>()).inverse();
+  step_.filtered.mean += cross * (shrink * (enu_from_ecef.transpose() * said.pull_pm));
+  const MotionMatrix after = covariance - cross * (shrink * information) * cross.transpose();
+  covariance = 0.5 * (after + after.transpose());
 }
 
 Eigen::Matrix3d MotionFilter::CovarianceEnu(Eigen::Index first) const {
-  const Eigen::Matrix3d enu_from_ecef = EnuFromEcefRotation(GeodeticFromEcef(state_.head<3>()));
-  return enu_from_ecef * covariance_.block<3, 3>(first, first) * enu_from_ecef.transpose();
+  const Eigen::Matrix3d enu_from_ecef =
+      EnuFromEcefRotation(GeodeticFromEcef(step_.filtered.mean.head<3>()));
+  return enu_from_ecef * step_.filtered.covariance.block<3, 3>(first, first) *
+         enu_from_ecef.transpose();
 }
 
 }  // namespace lodemark

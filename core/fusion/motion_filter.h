@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/fusion/acceleration_memory.h"
+#include "core/fusion/motion_smoother.h"
 #include "core/fusion/observation.h"
 #include "core/fusion/position_statement.h"
 
@@ -28,15 +29,11 @@ struct MotionVerdicts {
   bool changes_agree = false;
 };
 
-// By x, y, z earth-fixed: position, velocity, in metres and seconds.
-using MotionVector = Eigen::Matrix<double, 6, 1>;
-using MotionMatrix = Eigen::Matrix<double, 6, 6>;
-
 class MotionFilter {
  public:
   bool started() const { return started_; }
-  Eigen::Vector3d position_in_ecef() const { return state_.head<3>(); }
-  Eigen::Vector3d velocity_in_ecef_mps() const { return state_.tail<3>(); }
+  Eigen::Vector3d position_in_ecef() const { return step_.filtered.mean.head<3>(); }
+  Eigen::Vector3d velocity_in_ecef_mps() const { return step_.filtered.mean.tail<3>(); }
   double clock_drift_mps() const { return clock_drift_mps_; }
 
   // Begins at a position; nothing is known of the velocity but that it is a person's or a car's.
@@ -54,6 +51,9 @@ class MotionFilter {
   // Hears an independent statement around that place.
   void Hear(const PositionStatement& said);
 
+  // The latest time update with all that was heard since.
+  const MotionStep& step() const { return step_; }
+
   Eigen::Matrix3d PositionCovarianceEnu() const { return CovarianceEnu(0); }
   Eigen::Matrix3d VelocityCovarianceEnu() const { return CovarianceEnu(3); }
 
@@ -61,8 +61,7 @@ class MotionFilter {
   Eigen::Matrix3d CovarianceEnu(Eigen::Index first) const;
 
   bool started_ = false;
-  MotionVector state_ = MotionVector::Zero();
-  MotionMatrix covariance_ = MotionMatrix::Zero();
+  MotionStep step_;
   double clock_drift_mps_ = 0.0;
 };
 

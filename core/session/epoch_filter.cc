@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "core/geo/geodetic.h"
 
@@ -17,8 +18,8 @@ constexpr double kLongestSilence_s = 120.0;
 // Most ranges fit nothing for so long: the place is lost.
 constexpr double kLongestUnexplained_s = 5.0;
 
-// Ranges, in sum of probabilities, that must be likelier noise than anything else: without a lock all
-// of them look late.
+// Ranges, in sum of probabilities, that must be likelier noise than anything else: without a lock
+// all of them look late.
 constexpr double kFewestOrdinary = 1.0;
 
 // Without ranges for so long, what the motion adds outweighs how the first epochs are counted.
@@ -50,8 +51,7 @@ bool Unexplained(std::span<const ObservationVerdict> verdicts) {
     ordinary += verdict.weight;
     late += verdict.late_share;
   }
-  return ordinary < kFewestOrdinary ||
-         ordinary + late < 0.5 * static_cast<double>(verdicts.size());
+  return ordinary < kFewestOrdinary || ordinary + late < 0.5 * static_cast<double>(verdicts.size());
 }
 
 // Covariance of the place by the epoch's ranges alone.
@@ -119,6 +119,15 @@ void EpochFilter::Move(std::int64_t time_ns) {
   silent_s_ += seconds;
   if (silent_s_ > kLongestCounting_s) epochs_ = kVeryMany;
   filter_.Advance(seconds, rates_, changes_, accelerations_.After(silent_s_), &verdicts_);
+  if (remembers_) steps_.push_back(filter_.step());
+}
+
+void EpochFilter::Start(const Eigen::Vector3d& position_in_ecef,
+                        const Eigen::Matrix3d& covariance_enu_m2) {
+  filter_.Start(position_in_ecef, covariance_enu_m2);
+  silent_s_ = kUsual_s;
+  unexplained_s_ = 0.0;
+  if (remembers_) steps_.push_back(filter_.step());
 }
 
 std::optional<PositionStatement> EpochFilter::Place() const {
@@ -131,12 +140,10 @@ void EpochFilter::HearEpoch(const GnssEpochModel& model, const PointEstimate& po
   trust_.Learn(seconds_, model.used_signals(), verdicts);
   const RangedErrors errors = persistence_.Shares();
   if (!filter_.started()) {
-    unexplained_s_ = 0.0;
-    silent_s_ = kUsual_s;
     epochs_ = 1.0;
     lasting_m2_ = errors.lasting * point.covariance_enu_m2;
     ranged_share_.setIdentity();
-    filter_.Start(point.position_in_ecef, errors.AlikeEpochs(kUsual_s) * point.covariance_enu_m2);
+    Start(point.position_in_ecef, errors.AlikeEpochs(kUsual_s) * point.covariance_enu_m2);
     return;
   }
   if (Unexplained(verdicts)) {
@@ -155,9 +162,8 @@ void EpochFilter::HearEpoch(const GnssEpochModel& model, const PointEstimate& po
 void EpochFilter::HearPhoto(std::int64_t time_ns, const PointEstimate& point) {
   if (!filter_.started()) {
     time_ns_ = time_ns;
-    silent_s_ = kUsual_s;
     ranged_share_.setZero();
-    filter_.Start(point.position_in_ecef, point.covariance_enu_m2);
+    Start(point.position_in_ecef, point.covariance_enu_m2);
   } else {
     const double since_s = photo_ns_ == 0 ? kPhotosAlike_s : std::abs(Seconds(photo_ns_, time_ns));
     Hear(point, std::min(1.0, since_s / kPhotosAlike_s), false);
@@ -181,20 +187,28 @@ void EpochFilter::Hear(const PointEstimate& point, double share, bool ranged) {
   said.pull_pm =
       share * information * (enu_from_ecef * (point.position_in_ecef - before.around_in_ecef));
   filter_.Hear(said);
+  if (remembers_) steps_.back() = filter_.step();
   const Eigen::Matrix3d gain = filter_.PositionCovarianceEnu() * said.information_pm2;
   ranged_share_ -= gain * ranged_share_;
   if (ranged) ranged_share_ += gain;
 }
 
 // Each epoch counts alike, so the first are believed less than they are worth.
-Eigen::Matrix3d EpochFilter::PositionCovarianceEnu() const {
+Eigen::Matrix3d EpochFilter::FilteredCovarianceEnu() const {
   const RangedErrors errors = persistence_.Shares();
   const double seconds = seconds_ > 0.0 ? seconds_ : kUsual_s;
   const double worth = errors.OfMean(epochs_, seconds) * epochs_ / errors.AlikeEpochs(seconds);
-  return worth * filter_.PositionCovarianceEnu() +
-         ranged_share_ * lasting_m2_ * ranged_share_.transpose();
+  return worth * filter_.PositionCovarianceEnu();
 }
 
-void EpochFilter::Forget() { *this = EpochFilter(); }
+Eigen::Matrix3d EpochFilter::PositionCovarianceEnu() const {
+  return FilteredCovarianceEnu() + ranged_share_ * lasting_m2_ * ranged_share_.transpose();
+}
+
+void EpochFilter::Forget() {
+  std::vector<MotionStep> steps = std::move(steps_);
+  *this = EpochFilter(remembers_);
+  steps_ = std::move(steps);
+}
 
 }  // namespace lodemark

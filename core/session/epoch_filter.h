@@ -22,6 +22,9 @@ namespace lodemark {
 // Times are the session's.
 class EpochFilter {
  public:
+  // remembers: every step it takes, for smoothing.
+  explicit EpochFilter(bool remembers) : remembers_(remembers) {}
+
   bool started() const { return filter_.started(); }
   std::int64_t time_ns() const { return time_ns_; }
   Eigen::Vector3d position_in_ecef() const { return filter_.position_in_ecef(); }
@@ -30,6 +33,9 @@ class EpochFilter {
   // As they are to be stated: with what no averaging takes away.
   Eigen::Matrix3d PositionCovarianceEnu() const;
   Eigen::Matrix3d VelocityCovarianceEnu() const { return filter_.VelocityCovarianceEnu(); }
+  // Of the position as the filter has it.
+  Eigen::Matrix3d FilteredCovarianceEnu() const;
+  std::span<const MotionStep> steps() const { return steps_; }
   // How far the position rests on ranges: it moves by this times what moves them all.
   const Eigen::Matrix3d& ranged_share() const { return ranged_share_; }
 
@@ -49,14 +55,19 @@ class EpochFilter {
   // From one that heard Place(), if there was one, and a photograph taken near time_ns().
   void HearPhoto(std::int64_t time_ns, const PointEstimate& point);
 
+  // All but the steps.
   void Forget();
+  void ForgetSteps() { steps_.clear(); }
 
  private:
   void Move(std::int64_t time_ns);
+  void Start(const Eigen::Vector3d& position_in_ecef, const Eigen::Matrix3d& covariance_enu_m2);
   // Hears what an adjustment made of the present state, as strong as a share of it.
   void Hear(const PointEstimate& point, double share, bool ranged);
 
+  bool remembers_;
   MotionFilter filter_;
+  std::vector<MotionStep> steps_;
   PhaseChanges phases_;
   ErrorPersistence persistence_;
   SatelliteTrust trust_;

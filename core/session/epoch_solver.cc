@@ -6,9 +6,9 @@
 
 #include "core/fusion/coarse_position.h"
 #include "core/geo/geodetic.h"
-#include "core/session/accuracy.h"
 #include "core/session/distinct_satellites.h"
 #include "core/session/redundancy.h"
+#include "core/session/stated_accuracy.h"
 
 namespace lodemark {
 namespace {
@@ -18,9 +18,6 @@ constexpr double kFarFromStart_m = 1000.0;
 // What the errors of orbits, clocks and atmosphere have in common moves a position whatever the
 // residuals say: 1 sigma east, north, up.
 const Eigen::Vector3d kCommon_m(0.5, 0.5, 1.0);
-
-// A place carried on by the motion alone is one while it is known so well.
-constexpr double kWorstCoasted_m = 50.0;
 
 // Satellites that a position takes at least, with a height known from elsewhere or not.
 constexpr int kFewestSatellites = 4;
@@ -36,9 +33,6 @@ void FillPlace(const Eigen::Vector3d& position_in_ecef, const Eigen::Matrix3d& c
   // What is common to all ranges moves the position as far as it rests on them.
   estimate->covariance_enu_m2 =
       covariance_enu_m2 + by_ranges * kCommon_m.cwiseAbs2().asDiagonal() * by_ranges.transpose();
-  estimate->accuracy_m =
-      RadiusOfProbability(estimate->covariance_enu_m2.topLeftCorner<2, 2>(), 0.68);
-  estimate->vertical_accuracy_m = kHalfWidth68 * std::sqrt(estimate->covariance_enu_m2(2, 2));
 }
 
 EstimateStatus StatusOf(PointStatus status) {
@@ -97,7 +91,10 @@ bool LacksOrbits(std::span<const SatelliteStatus> statuses) {
 }  // namespace
 
 EpochSolver::EpochSolver(const SessionOptions& options)
-    : options_(options), model_(options), weights_(options) {}
+    : options_(options),
+      model_(options),
+      weights_(options),
+      filter_(options.estimator == Estimator::kSmoother) {}
 
 void EpochSolver::Solve(const ObservationEpoch& epoch, const PhotoPart& photo,
                         SessionEstimate* estimate, std::vector<SatelliteStatus>* statuses) {
@@ -243,6 +240,7 @@ void EpochSolver::FillPosition(SessionEstimate* estimate) const {
         Eigen::Matrix3d::Identity() -
         point_.information_pm2.inverse() * point_.stated_information_pm2;
     FillPlace(point_.position_in_ecef, point_.covariance_enu_m2, by_ranges, estimate);
+    StateAccuracy(estimate);
     const Eigen::Vector3d common_m = (by_ranges * kCommon_m.asDiagonal()).rowwise().norm();
     if (point_.protection_level_m > 0.0) {
       estimate->protection_level_m = point_.protection_level_m + common_m.head<2>().maxCoeff();
@@ -300,8 +298,7 @@ void EpochSolver::SolveVelocity(SessionEstimate* estimate, std::vector<Satellite
   estimate->velocity_enu_mps = enu_from_ecef * velocity_.velocity_in_ecef_mps;
   estimate->velocity_covariance_enu_m2ps2 =
       enu_from_ecef * velocity_.covariance_ecef_m2ps2 * enu_from_ecef.transpose();
-  estimate->speed_accuracy_mps =
-      RadiusOfProbability(estimate->velocity_covariance_enu_m2ps2.topLeftCorner<2, 2>(), 0.68);
+  StateAccuracy(estimate);
   estimate->clock_drift_mps = velocity_.clock_drift_mps;
   for (std::size_t i = 0; i < rate_verdicts_.size(); ++i) {
     SatelliteStatus& satellite = (*statuses)[model_.rate_signals()[i]];
@@ -317,8 +314,7 @@ void EpochSolver::FillFromFilter(SessionEstimate* estimate) const {
   estimate->has_velocity = true;
   estimate->velocity_enu_mps = enu_from_ecef * filter_.velocity_in_ecef_mps();
   estimate->velocity_covariance_enu_m2ps2 = filter_.VelocityCovarianceEnu();
-  estimate->speed_accuracy_mps =
-      RadiusOfProbability(estimate->velocity_covariance_enu_m2ps2.topLeftCorner<2, 2>(), 0.68);
+  StateAccuracy(estimate);
   estimate->clock_drift_mps = filter_.clock_drift_mps();
 }
 
@@ -365,6 +361,7 @@ void EpochSolver::ForgetTime() {
 
 void EpochSolver::Forget() {
   modelled_ = false;
+  filter_.ForgetSteps();
   ForgetTime();
   model_.Forget();
   weights_.Forget();

@@ -53,6 +53,8 @@ class EpochSolver {
   // reach, to which it is carried if not; its own without a filter at work.
   std::int64_t MomentFor(std::int64_t time_ns, std::int64_t reach_ns);
 
+  const EpochFilter& filter() const { return filter_; }
+
   // Of landmarks that came as ranges, by the last solution.
   std::span<const ObservationVerdict> visual_verdicts() const;
 
@@ -64,7 +66,7 @@ class EpochSolver {
   void Forget();
 
  private:
-  bool filters() const { return options_.estimator == Estimator::kFilter; }
+  bool filters() const { return options_.estimator != Estimator::kEpoch; }
   EstimateStatus SolvePosition(std::int64_t time_ns, const ObservationEpoch& epoch,
                                const PhotoPart& photo, std::vector<SatelliteStatus>* statuses);
   // Satellites and photograph from a place near by.

@@ -7,7 +7,7 @@
 
 #include "core/base/units.h"
 #include "core/fusion/protection.h"
-#include "core/session/accuracy.h"
+#include "core/session/stated_accuracy.h"
 #include "core/session/map_buildings.h"
 
 namespace lodemark {
@@ -128,7 +128,7 @@ void PhotoFusion::Look(EpochSolver* solver, SessionEstimate* estimate,
     }
   }
   queue_.Pop();
-  if (sighting_ || estimator_ == Estimator::kFilter) {
+  if (sighting_ || estimator_ != Estimator::kEpoch) {
     EstimateAtSighting(solver, estimate, landmarks);
   }
 }
@@ -148,7 +148,7 @@ void PhotoFusion::EstimateAtSighting(EpochSolver* solver, SessionEstimate* estim
   const bool with_epoch =
       has_epoch_ && std::abs(time_ns - epoch_ns_) <= kReach_ns && scheme_ != Scheme::kVision;
   std::int64_t at_ns = with_epoch ? epoch_ns_ : time_ns;
-  if (estimator_ == Estimator::kFilter) at_ns = solver->MomentFor(at_ns, kReach_ns);
+  if (estimator_ != Estimator::kEpoch) at_ns = solver->MomentFor(at_ns, kReach_ns);
   const PhotoPart& part = PartAt(at_ns);
   estimate->time_ns = at_ns;
   solver->SolvePhoto(part, with_epoch, estimate);
@@ -160,9 +160,7 @@ void PhotoFusion::EstimateAtSighting(EpochSolver* solver, SessionEstimate* estim
     estimate->position_in_ecef += moved.in_ecef_m;
     estimate->position = GeodeticFromEcef(estimate->position_in_ecef);
     estimate->covariance_enu_m2 += moved.covariance_enu_m2;
-    estimate->accuracy_m =
-        RadiusOfProbability(estimate->covariance_enu_m2.topLeftCorner<2, 2>(), 0.68);
-    estimate->vertical_accuracy_m = kHalfWidth68 * std::sqrt(estimate->covariance_enu_m2(2, 2));
+    StateAccuracy(estimate);
     if (estimate->protection_level_m > 0.0) {
       estimate->protection_level_m += kProtectionSigmas * HorizontalSigma(moved.covariance_enu_m2);
     }
@@ -180,7 +178,7 @@ void PhotoFusion::EstimateAtSighting(EpochSolver* solver, SessionEstimate* estim
 }
 
 const PhotoPart& PhotoFusion::PartForEpoch(std::int64_t time_ns) {
-  if (estimator_ != Estimator::kFilter) return PartAt(time_ns);
+  if (estimator_ == Estimator::kEpoch) return PartAt(time_ns);
   part_ = PhotoPart();
   sighting_near_ = false;
   return part_;

@@ -16,6 +16,7 @@
 #include "core/session/glonass_slots.h"
 #include "core/session/photo_fusion.h"
 #include "core/session/raw_verdicts.h"
+#include "core/session/smoothed_way.h"
 
 namespace lodemark {
 namespace {
@@ -87,6 +88,7 @@ struct Session::Impl {
   PhotoFusion photos;
   std::vector<LandmarkStatus> landmarks;
   EventLog events;
+  SmoothedWay way;
 };
 
 Session::Session(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -213,6 +215,7 @@ bool Session::ProcessNext() {
   } else {
     s.ProcessEpoch();
   }
+  if (s.options.estimator == Estimator::kSmoother) s.way.Note(s.estimate, s.solver.filter());
   return true;
 }
 
@@ -300,6 +303,9 @@ const SessionEstimate& Session::estimate() const { return impl_->estimate; }
 std::span<const SatelliteStatus> Session::satellites() const { return impl_->statuses; }
 std::span<const LandmarkStatus> Session::landmarks() const { return impl_->landmarks; }
 std::span<const SessionEvent> Session::events() const { return impl_->events.events(); }
+std::vector<SessionEstimate> Session::Smoothed() const {
+  return impl_->way.Estimates(impl_->solver.filter());
+}
 void Session::ClearEvents() { impl_->events.Clear(); }
 
 void Session::Reset() {
@@ -318,6 +324,7 @@ void Session::Reset() {
   s.photos.Forget();
   s.landmarks.clear();
   s.events.Reset();
+  s.way.Forget();
 }
 
 }  // namespace lodemark

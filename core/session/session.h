@@ -50,8 +50,9 @@ enum class Scheme : std::uint8_t {
 
 // What the position of one moment takes from the moments before.
 enum class Estimator : std::uint8_t {
-  kEpoch,   // nothing but biases between signals: each epoch stands for itself
-  kFilter,  // place and velocity, carried on by Doppler and carrier phase
+  kEpoch,     // nothing but biases between signals: each epoch stands for itself
+  kFilter,    // place and velocity, carried on by Doppler and carrier phase
+  kSmoother,  // the same, and all moments are remembered for Smoothed
 };
 
 struct SessionOptions {
@@ -257,6 +258,9 @@ class Session {
   const SessionEstimate& estimate() const;
   std::span<const SatelliteStatus> satellites() const;  // of the epoch processed last
   std::span<const LandmarkStatus> landmarks() const;    // of the photograph the estimate looked at
+  // All estimates so far in the order they were given, each with what came after it: empty without
+  // Estimator::kSmoother. Remembers some 2 kB for each.
+  std::vector<SessionEstimate> Smoothed() const;
   // Events since the last call of ClearEvents, at most 256; the oldest give way.
   std::span<const SessionEvent> events() const;
   void ClearEvents();

@@ -177,6 +177,13 @@ Status ReplayAll(MeasurementSource* source, PhotoSource* photos, ReplaySession* 
   }
   const Status rest = replay_photos(std::numeric_limits<std::int64_t>::max());
   if (!rest.ok()) return rest;
+  const Result<std::vector<lodemark_estimate>> smoothed = session->Smoothed();
+  if (!smoothed) return smoothed.error();
+  if (!smoothed->empty()) {
+    const Status rewritten = writer->RewriteTrajectory(*smoothed);
+    if (!rewritten.ok()) return rewritten;
+    summary->TakeSmoothed(*smoothed);
+  }
   return writer->Finish();
 }
 

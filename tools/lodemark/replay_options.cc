@@ -20,13 +20,14 @@ static_assert(LODEMARK_TROPOSPHERE_NONE == 2 && LODEMARK_WEIGHT_ELEVATION == 1);
 const std::vector<std::string> kSchemes = {"joint", "tight", "tight-diagonal", "vision", "gnss"};
 static_assert(LODEMARK_SCHEME_VISION == 3 && LODEMARK_SCHEME_GNSS == 4);
 
-// Photographs and satellites as far as there are any, filtered over time.
+// Photographs and satellites as far as there are any, filtered over time, forwards or both ways.
 constexpr const char* kFilterScheme = "ekf";
+constexpr const char* kSmootherScheme = "batch";
 
-constexpr const char* kAllSchemes = "joint, tight, tight-diagonal, vision, gnss, ekf";
+constexpr const char* kAllSchemes = "joint, tight, tight-diagonal, vision, gnss, ekf, batch";
 
 // What the design names and a later version will do.
-const std::vector<std::string> kLaterSchemes = {"ekf-imu", "window", "batch"};
+const std::vector<std::string> kLaterSchemes = {"ekf-imu", "window"};
 
 // In an option of the C interface zero stands for the default; this is as good as zero.
 constexpr double kAlmostZero = 1e-9;
@@ -73,8 +74,9 @@ void DeclareReplayOptions(CLI::App& command, ReplayOptions* options) {
       ->group(estimation);
   command
       .add_option("--scheme", options->scheme,
-                  "joint, tight, tight-diagonal, vision or gnss, each moment for itself, or ekf, "
-                  "filtered over time; joint with a map, else gnss")
+                  "joint, tight, tight-diagonal, vision or gnss, each moment for itself; ekf, "
+                  "filtered over time; batch, the same forwards and back. Joint with a map, else "
+                  "gnss")
       ->group(estimation);
   command.add_option("--systems", options->systems, "Only these: letters of GRECJIS")
       ->group(estimation);
@@ -142,7 +144,8 @@ Result<lodemark_session_options> SessionOptionsOf(const ReplayOptions& options) 
   }
   std::string scheme = SchemeOf(options);
   const bool filters = scheme == kFilterScheme;
-  if (filters) scheme = request.map.empty() ? "gnss" : "joint";
+  const bool smooths = scheme == kSmootherScheme;
+  if (filters || smooths) scheme = request.map.empty() ? "gnss" : "joint";
   if (std::find(kSchemes.begin(), kSchemes.end(), scheme) == kSchemes.end()) {
     return usage("--scheme " + scheme + ": no such scheme; choose from " + kAllSchemes);
   }
@@ -175,7 +178,9 @@ Result<lodemark_session_options> SessionOptionsOf(const ReplayOptions& options) 
   flag(options.fixed_biases, LODEMARK_SESSION_FIXED_BIASES);
   flag(options.accept_unhealthy, LODEMARK_SESSION_ACCEPT_UNHEALTHY);
   to.scheme = IndexIn(kSchemes, scheme);
-  to.estimator = filters ? LODEMARK_ESTIMATOR_FILTER : LODEMARK_ESTIMATOR_EPOCH;
+  to.estimator = filters   ? LODEMARK_ESTIMATOR_FILTER
+                 : smooths ? LODEMARK_ESTIMATOR_SMOOTHER
+                           : LODEMARK_ESTIMATOR_EPOCH;
   to.ionosphere = IndexIn(kIonospheres, options.ionosphere);
   to.troposphere = IndexIn(kTropospheres, options.troposphere);
   to.weight = IndexIn(kWeights, options.weight);

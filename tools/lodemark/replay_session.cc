@@ -134,6 +134,18 @@ ReplaySession::ReplaySession(lodemark_session* session)
   observations_.reserve(kSignals);
 }
 
+Result<std::vector<lodemark_estimate>> ReplaySession::Smoothed() {
+  std::vector<lodemark_estimate> estimates(1);
+  std::int32_t count = 0;
+  const lodemark_status status =
+      FetchList(&estimates, &count, [&](lodemark_estimate* out, std::int32_t capacity) {
+        return lodemark_session_smoothed(session_.get(), out, capacity, &count);
+      });
+  if (status != LODEMARK_OK) return LastError(status);
+  estimates.resize(static_cast<std::size_t>(count));
+  return estimates;
+}
+
 Result<ReplaySession> ReplaySession::Open(const lodemark_session_options& options) {
   lodemark_session* session = nullptr;
   const lodemark_status status = lodemark_session_open(&options, &session);

@@ -44,6 +44,8 @@ class ReplaySession {
   const lodemark_estimate& estimate() const { return estimate_; }
   std::span<const lodemark_satellite> satellites() const;
   std::span<const lodemark_landmark> landmarks() const;
+  // All estimates so far, each with what came after it; none without the smoother.
+  Result<std::vector<lodemark_estimate>> Smoothed();
   // What happened in the latest call of Process.
   std::span<const lodemark_event> events() const;
 

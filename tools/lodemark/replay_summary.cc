@@ -73,16 +73,9 @@ void ReplaySummary::AddEpoch(const lodemark_estimate& estimate,
   first_gps_ns_ = std::min(first_gps_ns_.value_or(before_gps_ns_), before_gps_ns_);
   last_gps_ns_ = std::max(last_gps_ns_, before_gps_ns_);
   satellites_seen_ += estimate.satellites_seen;
-  CountAt(estimate.outcome, &outcomes_);
+  CountOutcome(estimate);
   CountAt(estimate.photo, &photos_);
   landmarks_used_ += estimate.landmarks_used;
-  if ((estimate.present & LODEMARK_ESTIMATE_HAS_POSITION) != 0) {
-    ++answered_;
-    CountAt(static_cast<std::int32_t>(estimate.sources), &sources_);
-    satellites_used_ += estimate.satellites_used;
-    accuracies_m_.push_back(static_cast<float>(estimate.accuracy_m));
-    vertical_accuracies_m_.push_back(static_cast<float>(estimate.vertical_accuracy_m));
-  }
   if ((estimate.present & LODEMARK_ESTIMATE_HAS_SATELLITE_SIGMA_FACTOR) != 0) {
     satellite_factors_.push_back(static_cast<float>(estimate.satellite_sigma_factor));
   }
@@ -103,6 +96,30 @@ void ReplaySummary::AddEpoch(const lodemark_estimate& estimate,
         signal.verdict == LODEMARK_VERDICT_EPHEMERIS_TOO_OLD) {
       ++system.without_ephemeris;
     }
+  }
+}
+
+void ReplaySummary::CountOutcome(const lodemark_estimate& estimate) {
+  CountAt(estimate.outcome, &outcomes_);
+  if ((estimate.present & LODEMARK_ESTIMATE_HAS_POSITION) == 0) return;
+  ++answered_;
+  CountAt(static_cast<std::int32_t>(estimate.sources), &sources_);
+  satellites_used_ += estimate.satellites_used;
+  accuracies_m_.push_back(static_cast<float>(estimate.accuracy_m));
+  vertical_accuracies_m_.push_back(static_cast<float>(estimate.vertical_accuracy_m));
+}
+
+void ReplaySummary::TakeSmoothed(std::span<const lodemark_estimate> estimates) {
+  answered_ = 0;
+  satellites_used_ = 0;
+  outcomes_ = {};
+  sources_ = {};
+  accuracies_m_.clear();
+  vertical_accuracies_m_.clear();
+  for (const lodemark_estimate& estimate : estimates) {
+    const bool counted = estimate.outcome != LODEMARK_OUTCOME_NO_DATA &&
+                         (estimate.present & LODEMARK_ESTIMATE_HAS_GPS_TIME) != 0;
+    if (counted) CountOutcome(estimate);
   }
 }
 

@@ -19,6 +19,8 @@ class ReplaySummary {
 
   void AddEpoch(const lodemark_estimate& estimate, std::span<const lodemark_satellite> signals);
   void AddDroppedEpoch() { ++dropped_; }
+  // Counts these estimates of the epochs added in place of those that came with them.
+  void TakeSmoothed(std::span<const lodemark_estimate> estimates);
   void AddEvents(std::span<const lodemark_event> events);
 
   std::int64_t epochs() const { return epochs_; }
@@ -61,6 +63,8 @@ class ReplaySummary {
     std::int64_t signals = 0;
     std::int64_t without_ephemeris = 0;
   };
+
+  void CountOutcome(const lodemark_estimate& estimate);
 
   std::int64_t epochs_ = 0;
   std::int64_t answered_ = 0;

@@ -96,14 +96,12 @@ Status RunWriter::Open(const std::string& folder, bool with_landmarks) {
   const auto open = [&](RowWriter* writer, const char* name) {
     return writer->Open(JoinedPath(folder, name));
   };
-  Status opened = open(&trajectory_, "trajectory.csv");
-  if (opened.ok()) opened = open(&places_, "trajectory.tum");
+  folder_ = folder;
+  Status opened = OpenTrajectory();
   if (opened.ok()) opened = open(&satellites_, "satellites.csv");
   if (opened.ok() && with_landmarks) opened = open(&landmarks_.emplace(), "landmarks.csv");
   if (opened.ok()) opened = open(&events_, "events.jsonl");
   if (!opened.ok()) return opened;
-  trajectory_.Raw(TrajectoryHeader());
-  places_.SetSeparator(' ');
   satellites_.Raw(
       "time_gps_ns,satellite,signal,used,reason,residual_m,sigma_m,weight,elevation_deg,"
       "azimuth_deg,cn0_dbhz,range_rate_residual_mps,sight_probability\n");
@@ -113,6 +111,31 @@ Status RunWriter::Open(const std::string& folder, bool with_landmarks) {
         "range_sigma_m,latitude_deg,longitude_deg,height_m\n");
   }
   flushed_ = Clock::now();
+  return {};
+}
+
+Status RunWriter::OpenTrajectory() {
+  Status opened = trajectory_.Open(JoinedPath(folder_, "trajectory.csv"));
+  if (opened.ok()) opened = places_.Open(JoinedPath(folder_, "trajectory.tum"));
+  if (!opened.ok()) return opened;
+  trajectory_.Raw(TrajectoryHeader());
+  places_.SetSeparator(' ');
+  return {};
+}
+
+Status RunWriter::RewriteTrajectory(std::span<const lodemark_estimate> estimates) {
+  FlushAll();
+  const Status opened = OpenTrajectory();
+  if (!opened.ok()) return opened;
+  frame_.reset();
+  for (const lodemark_estimate& estimate : estimates) {
+    if (estimate.outcome == LODEMARK_OUTCOME_NO_DATA ||
+        !Has(estimate, LODEMARK_ESTIMATE_HAS_GPS_TIME)) {
+      continue;
+    }
+    WriteTrajectory(estimate);
+    WritePlace(estimate);
+  }
   return {};
 }
 

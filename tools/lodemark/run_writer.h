@@ -33,6 +33,9 @@ class RunWriter {
                   std::span<const lodemark_landmark> landmarks);
   void WriteEvents(std::span<const lodemark_event> events);
 
+  // Puts these estimates in place of those that were written, as far as they have a GPS time.
+  Status RewriteTrajectory(std::span<const lodemark_estimate> estimates);
+
   // The first failure to write.
   Status Finish();
   bool ok();
@@ -40,6 +43,7 @@ class RunWriter {
  private:
   using Clock = std::chrono::steady_clock;
 
+  Status OpenTrajectory();
   void WriteTrajectory(const lodemark_estimate& estimate);
   void WritePlace(const lodemark_estimate& estimate);
   void WriteLandmarks(const lodemark_estimate& estimate,
@@ -49,6 +53,7 @@ class RunWriter {
   template <typename Visit>
   void ForEachFile(const Visit& visit);
 
+  std::string folder_;
   RowWriter trajectory_;
   RowWriter places_;  // trajectory.tum
   RowWriter satellites_;

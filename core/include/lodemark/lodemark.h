@@ -480,8 +480,9 @@ LODEMARK_API lodemark_status lodemark_map_locate(
 #define LODEMARK_SCHEME_GNSS 4           /* satellites alone */
 
 /* What the position of one moment takes from the moments before. */
-#define LODEMARK_ESTIMATOR_EPOCH 0  /* nothing but biases between signals */
-#define LODEMARK_ESTIMATOR_FILTER 1 /* place and velocity, by Doppler and carrier phase */
+#define LODEMARK_ESTIMATOR_EPOCH 0    /* nothing but biases between signals */
+#define LODEMARK_ESTIMATOR_FILTER 1   /* place and velocity, by Doppler and carrier phase */
+#define LODEMARK_ESTIMATOR_SMOOTHER 2 /* the same, and remembered for lodemark_session_smoothed */
 
 #define LODEMARK_WEIGHT_SIGNAL 0    /* C/N0, elevation and reported uncertainty */
 #define LODEMARK_WEIGHT_ELEVATION 1 /* variance a^2 + b^2 / sin^2(elevation) */
@@ -814,6 +815,16 @@ typedef struct lodemark_estimate {
  */
 LODEMARK_API lodemark_status lodemark_session_estimate(const lodemark_session* session,
                                                        lodemark_estimate* estimate);
+
+/*
+ * Every estimate since the session was opened or reset, in the order they were given, each with
+ * what came after it: for a recording, not for live use. Needs LODEMARK_ESTIMATOR_SMOOTHER, with
+ * which a session remembers some 3 kB for each; there are none otherwise. out, capacity, count: as
+ * for lodemark_session_satellites. Takes longer the more there are.
+ */
+LODEMARK_API lodemark_status lodemark_session_smoothed(const lodemark_session* session,
+                                                       lodemark_estimate* out, int32_t capacity,
+                                                       int32_t* count);
 
 /* Why a signal was used, or why not. */
 #define LODEMARK_VERDICT_USED 0

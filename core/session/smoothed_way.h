@@ -1,0 +1,35 @@
+// The estimates of a session again, each with what came after it.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "core/session/epoch_filter.h"
+#include "core/session/session.h"
+
+namespace lodemark {
+
+class SmoothedWay {
+ public:
+  // The estimate of a moment as it is given; filter: as it is then.
+  void Note(const SessionEstimate& estimate, const EpochFilter& filter);
+
+  // One for each moment noted, in that order.
+  std::vector<SessionEstimate> Estimates(const EpochFilter& filter) const;
+
+  void Forget() { moments_.clear(); }
+
+ private:
+  struct Moment {
+    SessionEstimate estimate;
+    bool carried = false;  // the filter had a state
+    std::size_t step = 0;  // which it was
+    // Where the estimate was, seen from the state, and what its covariance had beside the state's.
+    Eigen::Vector3d ahead_in_ecef_m = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d beside_enu_m2 = Eigen::Matrix3d::Zero();
+  };
+  std::vector<Moment> moments_;
+};
+
+}  // namespace lodemark
