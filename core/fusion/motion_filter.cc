@@ -84,20 +84,30 @@ class TimeUpdate {
     normal_ = prior_;
     right_ = -prior_ * unknowns_;
   }
+  // Only the lower triangle, which is all that the factorisation looks at.
   void Add(const RangeRateObservation& rate, double weight) {
-    Vector slope = Vector::Zero();
-    slope.segment<3>(kAfter + kVelocity) = -rate.direction_in_ecef;
-    slope[kDrift] = 1.0;
-    normal_.noalias() += weight * slope * slope.transpose();
-    right_ += weight * Residual(rate) * slope;
+    const Eigen::Vector3d& u = rate.direction_in_ecef;
+    const double pull = weight * Residual(rate);
+    normal_.block<3, 3>(kAfter + kVelocity, kAfter + kVelocity).noalias() +=
+        weight * u * u.transpose();
+    normal_.block<1, 3>(kDrift, kAfter + kVelocity) -= weight * u.transpose();
+    normal_(kDrift, kDrift) += weight;
+    right_.segment<3>(kAfter + kVelocity) -= pull * u;
+    right_[kDrift] += pull;
   }
   void Add(const RangeChangeObservation& change, double weight) {
-    Vector slope = Vector::Zero();
-    slope.segment<3>(kAfter) = -change.direction_in_ecef;
-    slope.head<3>() = change.direction_in_ecef;
-    slope[kClockChange] = 1.0;
-    normal_.noalias() += weight * slope * slope.transpose();
-    right_ += weight * Residual(change) * slope;
+    const Eigen::Vector3d& u = change.direction_in_ecef;
+    const double pull = weight * Residual(change);
+    const Eigen::Matrix3d square = weight * u * u.transpose();
+    normal_.block<3, 3>(0, 0) += square;
+    normal_.block<3, 3>(kAfter, 0) -= square;
+    normal_.block<3, 3>(kAfter, kAfter) += square;
+    normal_.block<1, 3>(kClockChange, 0) += weight * u.transpose();
+    normal_.block<1, 3>(kClockChange, kAfter) -= weight * u.transpose();
+    normal_(kClockChange, kClockChange) += weight;
+    right_.head<3>() += pull * u;
+    right_.segment<3>(kAfter) -= pull * u;
+    right_[kClockChange] += pull;
   }
   // Returns how far the state moved, in metres and metres a second; negative if it cannot.
   double Step() {
