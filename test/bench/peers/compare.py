@@ -10,6 +10,7 @@ import faiss
 import poselib
 import pycolmap
 
+import frames
 import lenses
 import look_up
 import photos
@@ -17,7 +18,7 @@ import poses
 from lodemark import Lodemark
 from report import Report
 
-PARTS = ["poses", "lenses", "look_up", "photos"]
+PARTS = ["poses", "lenses", "look_up", "photos", "frames"]
 
 
 def _arguments():
@@ -86,6 +87,13 @@ def main():
         report.print_part("photos", photos.TITLE)
         if not known:
             print(f"\nPhotographs left out: no recordings in {arguments.data}/vision")
+    if "frames" in arguments.parts:
+        known = frames.run(
+            report, library, arguments.build, work / "maps", arguments.data, arguments.rounds
+        )
+        report.print_part("frames", frames.TITLE)
+        if not known:
+            print(f"\nFrames left out: no recordings in {arguments.data}/vision")
     if arguments.json:
         report.write_json(arguments.json, {"versions": versions, "machine": platform.machine()})
 

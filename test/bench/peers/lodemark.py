@@ -8,6 +8,7 @@ import numpy as np
 PINHOLE, BROWN, FISHEYE, THIN_PRISM_FISHEYE = range(4)
 GOOD, NO_POSITION = 0, 2  # of the statuses; those below zero are errors
 HAS_POSITION, HAS_GRAVITY = 0x1, 0x2
+LARGEST_COUNT = 4096
 
 SIGHT = np.dtype(
     [
@@ -151,6 +152,23 @@ class Lodemark:
         handle = c_void_p()
         self._check(self._library.lodemark_map_open(str(path).encode(), byref(handle)))
         return handle
+
+    def query(self, handle, lens, grey):
+        """The sights of a photograph, rows of bytes: an array of SIGHT."""
+        sights, count = np.zeros(LARGEST_COUNT, SIGHT), c_int32()
+        sights["struct_size"] = SIGHT.itemsize
+        status = self._library.lodemark_map_query(
+            handle,
+            byref(lens),
+            _pointer(grey),
+            c_int64(grey.strides[0]),
+            *(None, None),
+            _pointer(sights),
+            c_int32(LARGEST_COUNT),
+            byref(count),
+        )
+        self._check(status)
+        return sights[: count.value]
 
     def locate(self, handle, lens, grey):
         """The pose of a photograph, rows of bytes; None if it is not of this map."""

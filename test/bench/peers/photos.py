@@ -30,7 +30,7 @@ NEIGHBOURS = 16  # a landmark has several descriptors, and the second nearest mu
 THRESHOLD_PX = 4.0
 
 
-def _table(path):
+def read_table(path):
     open_text = gzip.open if path.suffix == ".gz" else open
     with open_text(path, "rt") as file:
         return list(csv.DictReader(file))
@@ -44,7 +44,7 @@ class _Scene:
     def __init__(self, folder):
         self.folder = folder
         self.camera = json.loads((folder / "camera.json").read_text())
-        cameras = _table(folder / "cameras_geodetic.csv")
+        cameras = read_table(folder / "cameras_geodetic.csv")
         self.queries = [row for row in cameras if row["role"] == "query"]
         self.pictures = {
             row["name"]: cv2.imread(str(folder / "images" / row["name"]), cv2.IMREAD_GRAYSCALE)
@@ -101,7 +101,7 @@ class _Pycolmap:
             height=camera["height_px"],
             params=[camera[name] for name in ("fx_px", "fy_px", "cx_px", "cy_px")],
         )
-        rows = _table(scene.folder / "landmarks.csv.gz")
+        rows = read_table(scene.folder / "landmarks.csv.gz")
         self.places_m = np.array([_enu_m(row) for row in rows])
         place_of = {int(row["landmark_id"]): i for i, row in enumerate(rows)}
         ids = np.fromfile(scene.folder / "landmark_descriptor_ids_i32.bin", np.int32)
