@@ -302,6 +302,8 @@ bool Register(JNIEnv* env) {
       Native("sessionProcess", "(J)I", SessionProcess),
       Native("sessionQueued", "(J[I)I", SessionQueued),
       Native("sessionEstimate", "(J" BUFFER ")I", SessionEstimate),
+      Native("sessionSmoothed", "(J" BUFFER "I[I)I",
+             SessionList<lodemark_estimate, lodemark_session_smoothed>),
       Native("sessionSatellites", "(J" BUFFER "I[I)I",
              SessionList<lodemark_satellite, lodemark_session_satellites>),
       Native("sessionLandmarks", "(J" BUFFER "I[I)I",

@@ -11,6 +11,8 @@ public final class Estimate {
   private final boolean hasGpsTime;
   private final boolean hasProtectionLevel;
   private final boolean hasVerticalProtectionLevel;
+  private final boolean hasSatelliteSigmaFactor;
+  private final boolean hasLandmarkSigmaFactor;
   private final boolean hasOrientation;
   private final boolean satellitesInPosition;
   private final boolean landmarksInPosition;
@@ -36,6 +38,8 @@ public final class Estimate {
   private final double clockDriftMetersPerSecond;
   private final double protectionLevelMeters;
   private final double verticalProtectionLevelMeters;
+  private final double satelliteSigmaFactor;
+  private final double landmarkSigmaFactor;
   private final double[] cameraFromEnu;
   private final PhotoOutcome photo;
   private final int landmarksUsed;
@@ -50,6 +54,10 @@ public final class Estimate {
         Struct.hasBit(struct, at + Layout.Estimate.PRESENT, Values.ESTIMATE_HAS_PROTECTION_LEVEL);
     hasVerticalProtectionLevel = Struct.hasBit(
         struct, at + Layout.Estimate.PRESENT, Values.ESTIMATE_HAS_VERTICAL_PROTECTION_LEVEL);
+    hasSatelliteSigmaFactor = Struct.hasBit(
+        struct, at + Layout.Estimate.PRESENT, Values.ESTIMATE_HAS_SATELLITE_SIGMA_FACTOR);
+    hasLandmarkSigmaFactor = Struct.hasBit(
+        struct, at + Layout.Estimate.PRESENT, Values.ESTIMATE_HAS_LANDMARK_SIGMA_FACTOR);
     hasOrientation =
         Struct.hasBit(struct, at + Layout.Estimate.PRESENT, Values.ESTIMATE_HAS_ORIENTATION);
     satellitesInPosition = Struct.hasBit(struct, at + Layout.Estimate.SOURCES, Values.SOURCE_GNSS);
@@ -78,6 +86,8 @@ public final class Estimate {
     protectionLevelMeters = struct.getDouble(at + Layout.Estimate.PROTECTION_LEVEL_M);
     verticalProtectionLevelMeters =
         struct.getDouble(at + Layout.Estimate.VERTICAL_PROTECTION_LEVEL_M);
+    satelliteSigmaFactor = struct.getDouble(at + Layout.Estimate.SATELLITE_SIGMA_FACTOR);
+    landmarkSigmaFactor = struct.getDouble(at + Layout.Estimate.LANDMARK_SIGMA_FACTOR);
     cameraFromEnu = Struct.doubles(struct, at + Layout.Estimate.CAMERA_FROM_ENU, 4);
     photo = Enums.at(PhotoOutcome.values(), struct.getInt(at + Layout.Estimate.PHOTO));
     landmarksUsed = struct.getInt(at + Layout.Estimate.LANDMARKS_USED);
@@ -136,6 +146,24 @@ public final class Estimate {
    */
   public boolean hasVerticalProtectionLevel() {
     return hasVerticalProtectionLevel;
+  }
+
+  /**
+   * Whether the factor of satellites counts: where variance components were asked for.
+   *
+   * @return true if it counts
+   */
+  public boolean hasSatelliteSigmaFactor() {
+    return hasSatelliteSigmaFactor;
+  }
+
+  /**
+   * Whether the factor of landmarks counts.
+   *
+   * @return true if it counts
+   */
+  public boolean hasLandmarkSigmaFactor() {
+    return hasLandmarkSigmaFactor;
   }
 
   /**
@@ -361,6 +389,24 @@ public final class Estimate {
    */
   public double getVerticalProtectionLevelMeters() {
     return verticalProtectionLevelMeters;
+  }
+
+  /**
+   * How many times larger than stated the errors of satellites were taken for.
+   *
+   * @return the factor
+   */
+  public double getSatelliteSigmaFactor() {
+    return satelliteSigmaFactor;
+  }
+
+  /**
+   * How many times larger than stated the errors of landmarks were taken for.
+   *
+   * @return the factor
+   */
+  public double getLandmarkSigmaFactor() {
+    return landmarkSigmaFactor;
   }
 
   /**

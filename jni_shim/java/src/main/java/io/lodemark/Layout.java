@@ -26,6 +26,7 @@ final class Layout {
     static final int ELEVATION_B_M = 56;
     static final int SEED = 64;
     static final int SCHEME = 72;
+    static final int ESTIMATOR = 76;
   }
 
   /** lodemark_gnss_clock. */
@@ -129,7 +130,7 @@ final class Layout {
   static final class Estimate {
     private Estimate() {}
 
-    static final int SIZE = 392;
+    static final int SIZE = 408;
     static final int PRESENT = 4;
     static final int OUTCOME = 8;
     static final int SOURCES = 12;
@@ -159,13 +160,15 @@ final class Layout {
     static final int PHOTO = 376;
     static final int LANDMARKS_USED = 380;
     static final int LANDMARKS_SEEN = 384;
+    static final int SATELLITE_SIGMA_FACTOR = 392;
+    static final int LANDMARK_SIGMA_FACTOR = 400;
   }
 
   /** lodemark_satellite. */
   static final class Satellite {
     private Satellite() {}
 
-    static final int SIZE = 88;
+    static final int SIZE = 96;
     static final int PRESENT = 4;
     static final int SYSTEM = 8;
     static final int SATELLITE = 12;
@@ -178,6 +181,7 @@ final class Layout {
     static final int AZIMUTH_DEG = 64;
     static final int CN0_DBHZ = 72;
     static final int RANGE_RATE_RESIDUAL_MPS = 80;
+    static final int SIGHT_PROBABILITY = 88;
   }
 
   /** lodemark_landmark. */

@@ -99,6 +99,8 @@ final class Native {
 
   static native int sessionEstimate(long session, ByteBuffer estimate);
 
+  static native int sessionSmoothed(long session, ByteBuffer out, int capacity, int[] total);
+
   static native int sessionSatellites(long session, ByteBuffer out, int capacity, int[] total);
 
   static native int sessionLandmarks(long session, ByteBuffer out, int capacity, int[] total);

@@ -251,6 +251,20 @@ public final class PositioningSession extends Handle {
   }
 
   /**
+   * Every estimate since the session was opened or reset, each with what came after it: for a
+   * recording, not for live use. Takes longer the more there are.
+   *
+   * @return a list of the caller's own; empty without {@link Estimator#SMOOTHER}
+   */
+  public List<Estimate> smoothed() {
+    synchronized (lock) {
+      ByteBuffer all =
+          fetch(Struct.of(Layout.Estimate.SIZE), Layout.Estimate.SIZE, Native::sessionSmoothed);
+      return read(all, Layout.Estimate.SIZE, Estimate::new);
+    }
+  }
+
+  /**
    * What happened since the last call, oldest first. Of more than 256 the oldest are lost.
    *
    * @return a list of the caller's own
@@ -364,6 +378,16 @@ public final class PositioningSession extends Handle {
      */
     public Builder scheme(Scheme scheme) {
       return put(Layout.SessionOptions.SCHEME, scheme.ordinal());
+    }
+
+    /**
+     * What a position takes from the moments before; nothing but biases if not set.
+     *
+     * @param estimator the choice
+     * @return this
+     */
+    public Builder estimator(Estimator estimator) {
+      return put(Layout.SessionOptions.ESTIMATOR, estimator.ordinal());
     }
 
     /**

@@ -12,6 +12,8 @@ public final class SatelliteStatus {
   private final boolean hasDirection;
   private final boolean hasRangeRateResidual;
   private final boolean hasCn0;
+  private final boolean hasSight;
+  private final double sightProbability;
   private final double residualMeters;
   private final double sigmaMeters;
   private final double weight;
@@ -32,6 +34,8 @@ public final class SatelliteStatus {
     hasRangeRateResidual = Struct.hasBit(
         struct, at + Layout.Satellite.PRESENT, Values.SATELLITE_HAS_RANGE_RATE_RESIDUAL);
     hasCn0 = Struct.hasBit(struct, at + Layout.Satellite.PRESENT, Values.SATELLITE_HAS_CN0);
+    hasSight = Struct.hasBit(struct, at + Layout.Satellite.PRESENT, Values.SATELLITE_HAS_SIGHT);
+    sightProbability = struct.getDouble(at + Layout.Satellite.SIGHT_PROBABILITY);
     residualMeters = struct.getDouble(at + Layout.Satellite.RESIDUAL_M);
     sigmaMeters = struct.getDouble(at + Layout.Satellite.SIGMA_M);
     weight = struct.getDouble(at + Layout.Satellite.WEIGHT);
@@ -112,6 +116,24 @@ public final class SatelliteStatus {
    */
   public boolean hasCn0() {
     return hasCn0;
+  }
+
+  /**
+   * Whether the probability of sight counts: where the map has buildings.
+   *
+   * @return true if it does
+   */
+  public boolean hasSight() {
+    return hasSight;
+  }
+
+  /**
+   * How likely no building of the map stands in the way.
+   *
+   * @return 0 to 1
+   */
+  public double getSightProbability() {
+    return sightProbability;
   }
 
   /**

@@ -64,11 +64,14 @@ final class Values {
   static final int ESTIMATE_HAS_PROTECTION_LEVEL = 0x8;
   static final int ESTIMATE_HAS_VERTICAL_PROTECTION_LEVEL = 0x10;
   static final int ESTIMATE_HAS_ORIENTATION = 0x20;
+  static final int ESTIMATE_HAS_SATELLITE_SIGMA_FACTOR = 0x40;
+  static final int ESTIMATE_HAS_LANDMARK_SIGMA_FACTOR = 0x80;
   static final int SOURCE_GNSS = 0x1;
   static final int SOURCE_VISION = 0x2;
   static final int SATELLITE_HAS_RESIDUAL = 0x1;
   static final int SATELLITE_HAS_DIRECTION = 0x2;
   static final int SATELLITE_HAS_RANGE_RATE_RESIDUAL = 0x4;
   static final int SATELLITE_HAS_CN0 = 0x8;
+  static final int SATELLITE_HAS_SIGHT = 0x10;
   static final int LANDMARK_HAS_RESIDUAL = 0x1;
 }

@@ -75,6 +75,7 @@ class LayoutTest {
     checkEnum("WEIGHT_", Weighting.values());
     checkEnum("PHOTO_", PhotoOutcome.values());
     checkEnum("EVENT_", SessionEvent.Kind.values());
+    checkEnum("ESTIMATOR_", Estimator.values());
     checkEnum("POSE_", PoseVerdict.values());
   }
 

@@ -81,6 +81,23 @@ class SessionTest {
   }
 
   @Test
+  void aSmootherTellsEveryEstimateAgain() {
+    try (PositioningSession session = Recorded.builder().estimator(Estimator.SMOOTHER).open();
+        GnssLog log = GnssLog.open(Recorded.WALK.resolve("gnss_log.txt"))) {
+      session.pushNavigation(
+          "navigation.rnx", Recorded.read(Recorded.WALK.resolve("navigation.rnx")));
+      assertTrue(session.smoothed().isEmpty());
+      int estimates = 0;
+      for (; estimates < 20 && log.pushNext(session); ++estimates) session.process();
+      List<Estimate> smoothed = session.smoothed();
+      assertEquals(estimates, smoothed.size());
+      assertEquals(
+          session.estimate().getTimeGpsNanos(), smoothed.get(estimates - 1).getTimeGpsNanos());
+      assertTrue(smoothed.get(0).hasPosition());
+    }
+  }
+
+  @Test
   void anEpochKeepsItsValuesAsItGrows() {
     GnssEpoch epoch = new GnssEpoch();
     for (int i = 0; i < 4096; ++i) epoch.add().setSvid(i).setCodeType("C");
@@ -140,6 +157,7 @@ class SessionTest {
     PositioningSession.Builder builder = PositioningSession.builder()
                                              .systems(SatelliteSystem.GPS, SatelliteSystem.GALILEO)
                                              .scheme(Scheme.TIGHT)
+                                             .estimator(Estimator.FILTER)
                                              .ionosphere(Ionosphere.CLIMATOLOGY)
                                              .troposphere(Troposphere.HOPFIELD)
                                              .weighting(Weighting.ELEVATION)
@@ -209,6 +227,7 @@ class SessionTest {
         session::estimate,
         session::satellites,
         session::landmarks,
+        session::smoothed,
         session::takeEvents,
         session::reset,
     };
