@@ -312,7 +312,7 @@ TEST_F(SessionPhoto, RefusesWhatMakesNoSense) {
   options.scheme = 5;
   EXPECT_EQ(lodemark_session_open(&options, &other), LODEMARK_ERROR_UNSUPPORTED);
   options.scheme = 0;
-  options.reserved = 1;
+  options.estimator = 77;
   EXPECT_EQ(lodemark_session_open(&options, &other), LODEMARK_ERROR_UNSUPPORTED);
 }
 
