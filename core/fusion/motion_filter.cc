@@ -262,6 +262,9 @@ void MotionFilter::Advance(double seconds, std::span<const RangeRateObservation>
   next.predicted.covariance = 0.5 * (after + after.transpose());
   next.gain = next.predicted.covariance.ldlt().solve(covariance.block<6, 6>(kAfter, 0)).transpose();
   next.filtered = next.predicted;
+  started_ = next.predicted.mean.allFinite() && next.predicted.covariance.allFinite() &&
+             next.predicted.covariance.diagonal().minCoeff() > 0.0;
+  if (!started_) return;
   step_ = next;
   clock_drift_mps_ = update.unknowns()[kDrift];
 }

@@ -40,8 +40,9 @@ class MotionFilter {
   void Start(const Eigen::Vector3d& position_in_ecef, const Eigen::Matrix3d& covariance_enu_m2);
   void Stop() { started_ = false; }
 
-  // Carries the state on. rates: at the new moment; changes: since the moment of the state. Both
-  // robustly: what contradicts the rest counts for little.
+  // Carries the state on, for a millisecond at least; stops where numbers run out. rates: at the
+  // new moment; changes: since the moment of the state. Both robustly: what contradicts the rest
+  // counts for little.
   void Advance(double seconds, std::span<const RangeRateObservation> rates,
                std::span<const RangeChangeObservation> changes, const MotionModel& model,
                MotionVerdicts* verdicts);

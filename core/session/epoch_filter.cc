@@ -15,6 +15,9 @@ namespace {
 // After a longer silence the place is looked for anew.
 constexpr double kLongestSilence_s = 120.0;
 
+// Nothing moves within less.
+constexpr double kShortest_s = 1e-3;
+
 // Most ranges fit nothing for so long: the place is lost.
 constexpr double kLongestUnexplained_s = 5.0;
 
@@ -71,7 +74,9 @@ Eigen::Matrix3d Inverse(const Eigen::Matrix3d& symmetric) {
 
 std::optional<Eigen::Vector3d> EpochFilter::PlaceAt(std::int64_t time_ns) const {
   if (!filter_.started()) return std::nullopt;
-  return filter_.position_in_ecef() + Seconds(time_ns_, time_ns) * filter_.velocity_in_ecef_mps();
+  const double seconds = Seconds(time_ns_, time_ns);
+  if (!(seconds >= 0.0) || seconds > kLongestSilence_s) return filter_.position_in_ecef();
+  return filter_.position_in_ecef() + seconds * filter_.velocity_in_ecef_mps();
 }
 
 void EpochFilter::Advance(std::int64_t time_ns, const ObservationEpoch& epoch,
@@ -110,6 +115,10 @@ void EpochFilter::Advance(std::int64_t time_ns) {
 
 void EpochFilter::Move(std::int64_t time_ns) {
   const double seconds = Seconds(time_ns_, time_ns);
+  if (filter_.started() && seconds >= 0.0 && seconds < kShortest_s) {
+    verdicts_ = MotionVerdicts();
+    return;
+  }
   time_ns_ = time_ns;
   if (!filter_.started()) return;
   if (!(seconds > 0.0) || seconds > kLongestSilence_s) {
@@ -119,7 +128,7 @@ void EpochFilter::Move(std::int64_t time_ns) {
   silent_s_ += seconds;
   if (silent_s_ > kLongestCounting_s) epochs_ = kVeryMany;
   filter_.Advance(seconds, rates_, changes_, accelerations_.After(silent_s_), &verdicts_);
-  if (remembers_) steps_.push_back(filter_.step());
+  if (remembers_ && filter_.started()) steps_.push_back(filter_.step());
 }
 
 void EpochFilter::Start(const Eigen::Vector3d& position_in_ecef,
@@ -159,17 +168,18 @@ void EpochFilter::HearEpoch(const GnssEpochModel& model, const PointEstimate& po
   persistence_.Learn(seconds_, model.used_signals(), verdicts);
 }
 
-void EpochFilter::HearPhoto(std::int64_t time_ns, const PointEstimate& point) {
+void EpochFilter::HearPhoto(std::int64_t time_ns, std::int64_t taken_ns,
+                            const PointEstimate& point) {
   if (!filter_.started()) {
     time_ns_ = time_ns;
     ranged_share_.setZero();
     Start(point.position_in_ecef, point.covariance_enu_m2);
   } else {
-    const double since_s = photo_ns_ == 0 ? kPhotosAlike_s : std::abs(Seconds(photo_ns_, time_ns));
+    const double since_s = photo_ns_ == 0 ? kPhotosAlike_s : std::abs(Seconds(photo_ns_, taken_ns));
     Hear(point, std::min(1.0, since_s / kPhotosAlike_s), false);
   }
   epochs_ = kVeryMany;
-  photo_ns_ = time_ns;
+  photo_ns_ = taken_ns;
 }
 
 void EpochFilter::Hear(const PointEstimate& point, double share, bool ranged) {

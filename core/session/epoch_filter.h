@@ -52,8 +52,8 @@ class EpochFilter {
   // From the adjustment that heard Place() and the ranges of the epoch advanced to.
   void HearEpoch(const GnssEpochModel& model, const PointEstimate& point,
                  std::span<const ObservationVerdict> verdicts);
-  // From one that heard Place(), if there was one, and a photograph taken near time_ns().
-  void HearPhoto(std::int64_t time_ns, const PointEstimate& point);
+  // From one that heard Place(), if there was one, and a photograph taken near by; of a moment.
+  void HearPhoto(std::int64_t time_ns, std::int64_t taken_ns, const PointEstimate& point);
 
   // All but the steps.
   void Forget();

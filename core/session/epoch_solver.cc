@@ -204,7 +204,7 @@ void EpochSolver::SolvePhoto(const PhotoPart& photo, bool with_epoch, SessionEst
   estimate->status = StatusOf(status);
   estimate->photo = photo_;
   if (filters() && estimate->status == EstimateStatus::kFix && photo_ == PhotoOutcome::kUsed) {
-    filter_.HearPhoto(estimate->time_ns, point_);
+    filter_.HearPhoto(estimate->time_ns, photo.taken_ns, point_);
   }
   if (estimate->status != EstimateStatus::kFix) {
     Coast(estimate);

@@ -28,6 +28,7 @@ struct PhotoPart {
   PositionWitness* witness = nullptr;        // or
   std::span<const RangeObservation> ranges;  // visual ones, each for itself
   std::optional<Eigen::Vector3d> start_in_ecef;
+  std::int64_t taken_ns = 0;  // in the session's time
 
   bool empty() const { return witness == nullptr && ranges.empty(); }
 };

@@ -193,6 +193,7 @@ const PhotoPart& PhotoFusion::PartAt(std::int64_t time_ns) {
   part_.witness = witness_.witness();
   part_.ranges = witness_.ranges();
   part_.start_in_ecef = witness_.start_in_ecef();
+  part_.taken_ns = sighting_->time_ns;
   return part_;
 }
 
