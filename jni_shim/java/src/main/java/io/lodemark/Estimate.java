@@ -14,8 +14,8 @@ public final class Estimate {
   private final boolean hasSatelliteSigmaFactor;
   private final boolean hasLandmarkSigmaFactor;
   private final boolean hasOrientation;
-  private final boolean satellitesInPosition;
-  private final boolean landmarksInPosition;
+  private final boolean fromSatellites;
+  private final boolean fromLandmarks;
   private final int satellitesUsed;
   private final int satellitesSeen;
   private final long timeNanos;
@@ -60,8 +60,8 @@ public final class Estimate {
         struct, at + Layout.Estimate.PRESENT, Values.ESTIMATE_HAS_LANDMARK_SIGMA_FACTOR);
     hasOrientation =
         Struct.hasBit(struct, at + Layout.Estimate.PRESENT, Values.ESTIMATE_HAS_ORIENTATION);
-    satellitesInPosition = Struct.hasBit(struct, at + Layout.Estimate.SOURCES, Values.SOURCE_GNSS);
-    landmarksInPosition = Struct.hasBit(struct, at + Layout.Estimate.SOURCES, Values.SOURCE_VISION);
+    fromSatellites = Struct.hasBit(struct, at + Layout.Estimate.SOURCES, Values.SOURCE_GNSS);
+    fromLandmarks = Struct.hasBit(struct, at + Layout.Estimate.SOURCES, Values.SOURCE_VISION);
     satellitesUsed = struct.getInt(at + Layout.Estimate.SATELLITES_USED);
     satellitesSeen = struct.getInt(at + Layout.Estimate.SATELLITES_SEEN);
     timeNanos = struct.getLong(at + Layout.Estimate.TIME_NS);
@@ -180,8 +180,8 @@ public final class Estimate {
    *
    * @return true if it does
    */
-  public boolean isSatellitesInPosition() {
-    return satellitesInPosition;
+  public boolean isFromSatellites() {
+    return fromSatellites;
   }
 
   /**
@@ -189,8 +189,8 @@ public final class Estimate {
    *
    * @return true if it does
    */
-  public boolean isLandmarksInPosition() {
-    return landmarksInPosition;
+  public boolean isFromLandmarks() {
+    return fromLandmarks;
   }
 
   /**

@@ -123,8 +123,8 @@ class MapTest {
     assertTrue(session.process());
     Estimate estimate = session.estimate();
     assertTrue(estimate.hasPosition());
-    assertTrue(estimate.isLandmarksInPosition());
-    assertFalse(estimate.isSatellitesInPosition());
+    assertTrue(estimate.isFromLandmarks());
+    assertFalse(estimate.isFromSatellites());
     assertEquals(PhotoOutcome.USED, estimate.getPhoto());
     assertTrue(estimate.getLandmarksUsed() > 20);
     assertTrue(estimate.hasOrientation());

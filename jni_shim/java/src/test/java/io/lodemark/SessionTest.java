@@ -37,8 +37,8 @@ class SessionTest {
       assertEquals(7, estimate.getSatellitesUsed());
       assertTrue(estimate.hasVelocity());
       assertEquals(9, estimate.getCovarianceEnu().length);
-      assertTrue(estimate.isSatellitesInPosition());
-      assertFalse(estimate.isLandmarksInPosition());
+      assertTrue(estimate.isFromSatellites());
+      assertFalse(estimate.isFromLandmarks());
       assertEquals(PhotoOutcome.NONE, estimate.getPhoto());
       assertTrue(estimate.toString().startsWith("48.200"));
 
