@@ -151,9 +151,14 @@ lodemark_status lodemark_map_locate(
   using namespace lodemark;
   return Guard([&] {
     Question question;
+    bool is_focal_known = true;
     lodemark_status status = Read(map, lens, pixels, stride_bytes, prior, query_options, &question);
     if (status == LODEMARK_OK) {
-      status = ReadResectOptions(resect_options, &question.options.resection);
+      status = ReadResectOptions(resect_options, &question.options.resection, &is_focal_known);
+    }
+    if (status == LODEMARK_OK && !is_focal_known) {
+      return FailAt(LODEMARK_ERROR_UNSUPPORTED, {"resect_options"}, "focal",
+                    "is UNKNOWN, which only lodemark_pose_resect can serve");
     }
     if (status == LODEMARK_OK) status = CheckStruct<lodemark_pose>(pose, {"pose"});
     if (status == LODEMARK_OK) {
@@ -168,7 +173,7 @@ lodemark_status lodemark_map_locate(
     Result<PhotoPosition> found =
         LocatePhoto(*map->map, question.image, *question.lens, question.prior, question.options);
     if (!found) return Fail(found.error());
-    WriteStruct(ToC(found->pose, map->frame), pose);
+    WriteStruct(ToC(found->pose, question.lens->parameters(), map->frame), pose);
     const std::size_t listed = Listed(found->matches.size());
     if (residuals != nullptr) {
       const VisualRanges ranges =

@@ -2,12 +2,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "core/capi/eyes.h"
 #include "core/capi/guard.h"
 #include "core/capi/structs.h"
 #include "core/resection/resection.h"
+#include "core/resection/unknown_focal.h"
 #include "core/resection/visual_ranges.h"
 
 namespace lodemark {
@@ -25,6 +28,19 @@ void WriteRangeCovariance(const VisualRanges& ranges, std::size_t count, double*
   }
 }
 
+Result<ResectedCamera> Resect(std::span<const LandmarkSight> sights, const Lens& lens,
+                              const ResectionPriors& priors, const ResectionOptions& options,
+                              bool is_focal_known) {
+  if (!is_focal_known) return ResectWithFocal(sights, lens, priors, options);
+  Result<ResectedPose> pose = Resect(sights, lens, priors, options);
+  if (!pose) return pose.error();
+  ResectedCamera camera;
+  camera.pose = std::move(*pose);
+  camera.focal_px = lens.parameters().fx_px;
+  camera.lens = lens;
+  return camera;
+}
+
 }  // namespace
 }  // namespace lodemark
 
@@ -39,22 +55,26 @@ lodemark_status lodemark_pose_resect(const lodemark_lens* lens, const lodemark_s
     FramedSights framed;
     PhotoPrior photo_prior;
     ResectionOptions resection;
+    bool is_focal_known = true;
     lodemark_status status = ReadLens(lens, "lens", &known);
     if (status == LODEMARK_OK) status = ReadSights(sights, count, &framed);
     if (status == LODEMARK_OK) status = ReadPrior(prior, framed.frame, &photo_prior);
-    if (status == LODEMARK_OK) status = ReadResectOptions(options, &resection);
+    if (status == LODEMARK_OK) status = ReadResectOptions(options, &resection, &is_focal_known);
     if (status == LODEMARK_OK) status = CheckStruct<lodemark_pose>(pose, {"pose"});
     if (status == LODEMARK_OK && residuals != nullptr && count > 0) {
       status = CheckStruct<lodemark_sight_residual>(residuals, {"residuals"});
     }
     if (status != LODEMARK_OK) return status;
 
-    Result<ResectedPose> found = Resect(framed.sights, *known, photo_prior.resection, resection);
-    if (!found) return Fail(found.error());
-    const VisualRanges ranges = VisualRangesFrom(*found, framed.sights, *known);
-    WriteStruct(ToC(*found, framed.frame), pose);
+    Result<ResectedCamera> camera =
+        Resect(framed.sights, *known, photo_prior.resection, resection, is_focal_known);
+    if (!camera) return Fail(camera.error());
+    const ResectedPose& found = camera->pose;
+    const VisualRanges ranges =
+        VisualRangesFrom(found, framed.sights, camera->lens ? *camera->lens : *known);
+    WriteStruct(ToC(*camera, framed.frame), pose);
     if (residuals != nullptr) {
-      const std::vector<lodemark_sight_residual> fared = SightResiduals(*found, ranges);
+      const std::vector<lodemark_sight_residual> fared = SightResiduals(found, ranges);
       std::int32_t written = 0;
       status = WriteList<lodemark_sight_residual>(
           fared.size(), [&](std::size_t i) { return fared[i]; }, residuals, count, &written);
@@ -63,6 +83,6 @@ lodemark_status lodemark_pose_resect(const lodemark_lens* lens, const lodemark_s
       WriteRangeCovariance(ranges, framed.sights.size(), range_covariance_m2);
     }
     if (status != LODEMARK_OK) return status;
-    return HasPose(found->verdict) ? LODEMARK_OK : LODEMARK_NO_POSITION;
+    return HasPose(found.verdict) ? LODEMARK_OK : LODEMARK_NO_POSITION;
   });
 }

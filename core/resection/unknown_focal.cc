@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -11,31 +10,17 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/random.h"
 #include "core/base/units.h"
 #include "core/resection/collinearity.h"
-#include "core/resection/minimal_solvers.h"
+#include "core/resection/focal_search.h"
 #include "core/resection/pose_adjustment.h"
 #include "core/resection/resection_input.h"
-#include "core/resection/sight_table.h"
 
 namespace lodemark {
 namespace {
 
-constexpr std::size_t kDrawn = 4;
-
-// One more than are drawn: four leave one equation over.
+// Four leave one equation over.
 constexpr std::size_t kFewestSights = 5;
-
-// A sample takes ten times as long as one of three sights.
-constexpr int kMostSamples = 20'000;
-
-// Of samples without a mistaken sight, the share near enough to the truth for the others to agree.
-constexpr double kFortunate = 0.5;
-
-// Focal lengths that cameras have, relative to the longer side.
-constexpr double kShortest = 0.1;
-constexpr double kLongest = 50.0;
 
 constexpr int kMostSteps = 30;
 constexpr int kMostRounds = 6;
@@ -50,119 +35,6 @@ constexpr double kMostLog10Chance = -3.0;
 
 using Matrix7d = Eigen::Matrix<double, 7, 7>;
 using Vector7d = Eigen::Matrix<double, 7, 1>;
-
-struct PoseAndFocal {
-  Rigid3 camera_from_enu;
-  double focal_px = 0.0;
-};
-
-std::optional<Lens> WithFocal(const Lens& lens, double focal_px) {
-  LensParameters parameters = lens.parameters();
-  parameters.fy_px *= focal_px / parameters.fx_px;
-  parameters.fx_px = focal_px;
-  Result<Lens> made = Lens::Create(parameters);
-  if (!made) return std::nullopt;
-  return *made;
-}
-
-// By samples of four sights, in an order that owes nothing to the one they came in.
-class FocalSearch {
- public:
-  FocalSearch(std::span<const LandmarkSight> sights, const Lens& lens,
-              const ResectionOptions& options)
-      : options_(options), random_(options.seed) {
-    const LensParameters& parameters = lens.parameters();
-    const double ratio = parameters.fx_px / parameters.fy_px;
-    const double longer_px = std::max(parameters.width_px, parameters.height_px);
-    shortest_px_ = kShortest * longer_px;
-    longest_px_ = kLongest * longer_px;
-    for (const std::size_t i : ShuffledOrder(sights, options.seed)) {
-      const LandmarkSight& sight = sights[i];
-      rows_.push_back(
-          {{sight.pixel.x() - parameters.cx_px, ratio * (sight.pixel.y() - parameters.cy_px)},
-           sight.landmark_in_enu_m,
-           1.0 / (sight.pixel_sigma_px * sight.pixel_sigma_px),
-           sight.landmark_covariance_m2.trace() / 3.0});
-    }
-  }
-
-  std::optional<PoseAndFocal> Run() {
-    double wanted = std::min(options_.most_samples, kMostSamples);
-    const double limit = options_.inlier_threshold_px * options_.inlier_threshold_px;
-    double least = limit * static_cast<double>(rows_.size());
-    std::optional<PoseAndFocal> best;
-    for (samples_ = 0; samples_ < wanted; ++samples_) {
-      std::array<Eigen::Vector2d, kDrawn> pixels;
-      std::array<Eigen::Vector3d, kDrawn> landmarks;
-      Draw(&pixels, &landmarks);
-      const FocalPoseSet set = PoseAndFocalFromFourPoints(pixels, landmarks);
-      for (int k = 0; k < set.count; ++k) {
-        const FocalPose& pose = set.poses[static_cast<std::size_t>(k)];
-        if (!(pose.focal_px > shortest_px_ && pose.focal_px < longest_px_)) continue;
-        std::size_t agreeing = 0;
-        const double cost = Cost(pose, limit, least, &agreeing);
-        if (!(cost < least)) continue;
-        least = cost;
-        best = PoseAndFocal{pose.camera_from_world, pose.focal_px};
-        const double share = static_cast<double>(agreeing) / static_cast<double>(rows_.size());
-        const double success = kFortunate * std::pow(share, kDrawn);
-        const double missing = std::log(std::max(1.0 - options_.wanted_confidence, 1e-12));
-        wanted = std::min(wanted, std::ceil(missing / std::log1p(-success)));
-      }
-    }
-    return best;
-  }
-
-  int samples() const { return samples_; }
-
- private:
-  struct Row {
-    Eigen::Vector2d centred_px;
-    Eigen::Vector3d landmark;
-    double weight = 1.0;
-    double spread_m2 = 0.0;
-  };
-
-  void Draw(std::array<Eigen::Vector2d, kDrawn>* pixels,
-            std::array<Eigen::Vector3d, kDrawn>* landmarks) {
-    std::array<std::size_t, kDrawn> drawn = {};
-    for (std::size_t k = 0; k < kDrawn; ++k) {
-      const auto end = drawn.begin() + static_cast<std::ptrdiff_t>(k);
-      do {
-        drawn[k] = random_.Index(rows_.size());
-      } while (std::find(drawn.begin(), end, drawn[k]) != end);
-      (*pixels)[k] = rows_[drawn[k]].centred_px;
-      (*landmarks)[k] = rows_[drawn[k]].landmark;
-    }
-  }
-
-  // Sum of truncated squares; given up on where it exceeds most.
-  double Cost(const FocalPose& pose, double limit, double most, std::size_t* agreeing) const {
-    const Eigen::Matrix3d rotation = pose.camera_from_world.rotation().toRotationMatrix();
-    const Eigen::Vector3d& translation = pose.camera_from_world.translation();
-    double cost = 0.0;
-    for (const Row& row : rows_) {
-      const Eigen::Vector3d there = rotation * row.landmark + translation;
-      double square = limit;
-      if (there.z() > 0.0) {
-        const double scale = pose.focal_px / there.z();
-        square = (row.centred_px - scale * there.head<2>()).squaredNorm() /
-                 (1.0 / row.weight + scale * scale * row.spread_m2);
-      }
-      if (square < limit) ++*agreeing;
-      cost += std::min(square, limit);
-      if (cost >= most) break;
-    }
-    return cost;
-  }
-
-  const ResectionOptions& options_;
-  Random random_;
-  std::vector<Row> rows_;
-  double shortest_px_ = 0.0;
-  double longest_px_ = 0.0;
-  int samples_ = 0;
-};
 
 // Normal equations of the pose's six unknowns and the logarithm of the focal length.
 struct FocalNormals {
@@ -258,12 +130,6 @@ double ChanceOfFour(double log10_chance, std::size_t sights, const Lens& lens,
   return log10_chance + std::log10(samples * std::max(image_px2 / gate_px2, 1.0));
 }
 
-bool IsStraight(const LensParameters& parameters) {
-  return (parameters.model == LensModel::kPinhole || parameters.model == LensModel::kBrown) &&
-         std::all_of(parameters.coefficients.begin(), parameters.coefficients.end(),
-                     [](double coefficient) { return coefficient == 0.0; });
-}
-
 // About the landmarks' mean, where their coordinates are small.
 class FocalResection {
  public:
@@ -279,9 +145,7 @@ class FocalResection {
 
   Result<ResectedCamera> Run() {
     if (sights_.size() < kFewestSights) return Refused(PoseVerdict::kTooFew);
-    FocalSearch search(sights_, lens_, options_);
-    std::optional<PoseAndFocal> at = search.Run();
-    samples_ = search.samples();
+    std::optional<PoseAndFocal> at = SearchPoseAndFocal(sights_, lens_, options_, &samples_);
     if (!at) return Refused(PoseVerdict::kNotHere);
     const std::optional<double> variance = Settle(&*at);
     const std::optional<Lens> found = WithFocal(lens_, at->focal_px);
@@ -310,6 +174,7 @@ class FocalResection {
     camera.pose.samples = samples_;
     camera.pose.camera_from_enu = Uncentred(camera.pose.camera_from_enu);
     if (camera.pose.alternative) camera.pose.alternative = Uncentred(*camera.pose.alternative);
+    camera.lens = found;
     camera.focal_px = at->focal_px;
     camera.focal_sigma_px = at->focal_px * std::sqrt(*variance);
     return camera;
@@ -367,10 +232,6 @@ Result<ResectedCamera> ResectWithFocal(std::span<const LandmarkSight> sights, co
                                        const ResectionPriors& priors,
                                        const ResectionOptions& options) {
   if (Status status = CheckResectionInput(sights, priors, options); !status) return status.error();
-  if (!IsStraight(lens.parameters())) {
-    return Error{ErrorCode::kInvalidArgument,
-                 "lens: a focal length can only be found of a pinhole without distortion"};
-  }
   return FocalResection(sights, lens, priors, options).Run();
 }
 

@@ -1,6 +1,7 @@
 // A resection where the focal length is one of the unknowns.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "core/base/result.h"
@@ -15,10 +16,11 @@ struct ResectedCamera {
   // Where there is a pose: of the lens's x axis, that of y in the ratio that the lens has.
   double focal_px = 0.0;
   double focal_sigma_px = 0.0;  // were the landmarks' errors independent of each other
+  std::optional<Lens> lens;     // the one given, with that focal length
 };
 
-// As Resect, for a lens whose principal point and ratio of focal lengths hold, but not their size.
-// Error for one that bends: its distortion cannot be undone before the focal length is known.
+// As Resect, for a lens of which all holds but the size of its focal lengths: principal point,
+// their ratio and the coefficients of its distortion.
 Result<ResectedCamera> ResectWithFocal(std::span<const LandmarkSight> sights, const Lens& lens,
                                        const ResectionPriors& priors,
                                        const ResectionOptions& options);

@@ -375,7 +375,7 @@ FIELD(lodemark_view_prior, camera_from_enu, 152);
 FIELD(lodemark_view_prior, search_radius_px, 184);
 FIELD(lodemark_view_prior, farthest_m, 192);
 
-SIZE(lodemark_resect_options, 2624);
+SIZE(lodemark_resect_options, 2632);
 FIELD(lodemark_resect_options, struct_size, 0);
 FIELD(lodemark_resect_options, present, 4);
 FIELD(lodemark_resect_options, inlier_threshold_px, 8);
@@ -383,8 +383,10 @@ FIELD(lodemark_resect_options, seed, 16);
 FIELD(lodemark_resect_options, most_samples, 24);
 FIELD(lodemark_resect_options, reserved, 28);
 FIELD(lodemark_resect_options, intrinsics_covariance, 32);
+FIELD(lodemark_resect_options, focal, 2624);
+FIELD(lodemark_resect_options, reserved_2, 2628);
 
-SIZE(lodemark_pose, 496);
+SIZE(lodemark_pose, 512);
 FIELD(lodemark_pose, struct_size, 0);
 FIELD(lodemark_pose, verdict, 4);
 FIELD(lodemark_pose, inliers, 8);
@@ -404,6 +406,8 @@ FIELD(lodemark_pose, noise_px, 424);
 FIELD(lodemark_pose, log10_chance, 432);
 FIELD(lodemark_pose, alternative_ecef_m, 440);
 FIELD(lodemark_pose, alternative_camera_from_enu, 464);
+FIELD(lodemark_pose, focal_px, 496);
+FIELD(lodemark_pose, focal_sigma_px, 504);
 
 SIZE(lodemark_sight_residual, 40);
 FIELD(lodemark_sight_residual, struct_size, 0);

@@ -39,6 +39,10 @@ constexpr bool kMemoryIsTheProgramsOwn = true;
 
 constexpr lodemark_status kInvalid = LODEMARK_ERROR_INVALID_ARGUMENT;
 
+// What structs that have grown were in the first version of the interface.
+constexpr std::uint32_t kFirstResectOptions = 2624;
+constexpr std::uint32_t kFirstPose = 496;
+
 template <typename T>
 T Sized() {
   T value = {};
@@ -117,6 +121,23 @@ class Photo : public ::testing::Test {
                 sizeof prior.position_in_ecef_m);
     for (const int i : {0, 4, 8}) prior.position_covariance_enu_m2[i] = 25.0;
     return prior;
+  }
+
+  // Corners of windows in one wall and in another 4 m behind it, seen without error.
+  std::vector<lodemark_sight> WindowsInTwoWalls() const {
+    std::vector<lodemark_sight> sights;
+    for (int i = 0; i < 40; ++i) {
+      auto sight = Sized<lodemark_sight>();
+      const double away_m[3] = {0.7 * (i % 8) - 2.4, i % 3 == 0 ? 12.0 : 8.0, 0.6 * (i / 8) - 1.1};
+      double enu_m[3];
+      for (int k = 0; k < 3; ++k) enu_m[k] = kCamera_enu_m[k] + away_m[k];
+      EXPECT_EQ(lodemark_ecef_from_enu(kOrigin_geodetic, enu_m, sight.landmark_in_ecef_m),
+                LODEMARK_OK);
+      sight.pixel_px[0] = scene_->lens.cx_px + scene_->lens.fx_px * away_m[0] / away_m[1];
+      sight.pixel_px[1] = scene_->lens.cy_px - scene_->lens.fy_px * away_m[2] / away_m[1];
+      sights.push_back(sight);
+    }
+    return sights;
   }
 
   void ExpectTheTruth() const {
@@ -229,6 +250,72 @@ TEST_F(Photo, ResectGivesTheCovarianceBetweenItsRanges) {
       EXPECT_NEAR(covariance[i * few + k], covariance[k * few + i], 1e-15);
     }
   }
+}
+
+TEST_F(Photo, ResectFindsTheFocalLengthOfALensThatIsAGuess) {
+  const std::vector<lodemark_sight> sights = WindowsInTwoWalls();
+  const auto count = static_cast<std::int32_t>(sights.size());
+  lodemark_lens guess = scene_->lens;
+  guess.fx_px *= 1.4;
+  guess.fy_px *= 1.4;
+  auto options = Sized<lodemark_resect_options>();
+  const auto resect = [&] {
+    return lodemark_pose_resect(&guess, sights.data(), count, nullptr, &options, &pose_,
+                                residuals_.data(), nullptr);
+  };
+  const lodemark_status status = resect();
+  const lodemark_pose taken_as_known = pose_;
+  EXPECT_GT(Distance(pose_.ecef_m, scene_->camera_in_ecef_m), 0.5);
+  options.focal = LODEMARK_FOCAL_UNKNOWN;
+  ASSERT_EQ(resect(), LODEMARK_OK) << lodemark_last_error();
+  EXPECT_NEAR(pose_.focal_px, scene_->lens.fx_px, 0.1);
+  EXPECT_GT(pose_.focal_sigma_px, 0.0);
+  EXPECT_LT(Distance(pose_.ecef_m, scene_->camera_in_ecef_m), 0.01);
+  EXPECT_LT(std::hypot(residuals_[3].residual_px[0], residuals_[3].residual_px[1]), 0.1);
+  options.struct_size = kFirstResectOptions;  // beyond what a program of the first version knows of
+  EXPECT_EQ(resect(), status);
+  EXPECT_EQ(pose_.ecef_m[0], taken_as_known.ecef_m[0]);
+}
+
+TEST_F(Photo, StructsThatGrewAreTakenAndFilledAsTheyWereAtFirst) {
+  ASSERT_EQ(Query(scene_->photo), LODEMARK_OK);
+  unsigned char bytes[sizeof(lodemark_pose)];
+  std::memset(bytes, 0xa5, sizeof bytes);
+  std::memcpy(bytes, &kFirstPose, sizeof kFirstPose);
+  auto options = Sized<lodemark_resect_options>();
+  options.struct_size = kFirstResectOptions;
+  ASSERT_EQ(lodemark_pose_resect(&scene_->lens, sights_.data(), count_, nullptr, &options,
+                                 reinterpret_cast<lodemark_pose*>(bytes), nullptr, nullptr),
+            LODEMARK_OK);
+  for (std::size_t i = kFirstPose; i < sizeof bytes; ++i) ASSERT_EQ(bytes[i], 0xa5) << i;
+}
+
+TEST_F(Photo, RefusesFocalsThatItDoesNotKnowOrCannotServe) {
+  ASSERT_EQ(Query(scene_->photo), LODEMARK_OK);
+  auto options = Sized<lodemark_resect_options>();
+  const auto resect = [&] {
+    return lodemark_pose_resect(&scene_->lens, sights_.data(), 20, nullptr, &options, &pose_,
+                                nullptr, nullptr);
+  };
+  options.focal = 2;
+  EXPECT_EQ(resect(), LODEMARK_ERROR_UNSUPPORTED);
+  EXPECT_NE(std::strstr(lodemark_last_error(), "focal"), nullptr) << lodemark_last_error();
+  options.focal = -1;
+  EXPECT_EQ(resect(), kInvalid);
+  options.focal = LODEMARK_FOCAL_KNOWN;
+  options.reserved_2 = 1;
+  EXPECT_EQ(resect(), LODEMARK_ERROR_UNSUPPORTED);
+  options.reserved_2 = 0;
+  for (const std::uint32_t size : {0u, 8u, kFirstResectOptions - 8, kFirstResectOptions + 4}) {
+    options.struct_size = size;
+    EXPECT_EQ(resect(), kInvalid) << size;
+  }
+  options.struct_size = sizeof options;
+  options.focal = LODEMARK_FOCAL_UNKNOWN;
+  EXPECT_EQ(lodemark_map_locate(map_, &scene_->lens, scene_->photo.data(), scene_->lens.width_px,
+                                nullptr, nullptr, &options, &pose_, nullptr, nullptr, 0, &count_),
+            LODEMARK_ERROR_UNSUPPORTED);
+  EXPECT_NE(std::strstr(lodemark_last_error(), "focal"), nullptr) << lodemark_last_error();
 }
 
 TEST_F(Photo, SaysThatAPhotographIsOfElsewhere) {

@@ -267,7 +267,9 @@ class Sequence {
 
   lodemark_resect_options TakeOptions() {
     auto options = Sized<lodemark_resect_options>();
-    options.seed = bytes_.Take<std::uint8_t>();
+    const unsigned kind = bytes_.Take<std::uint8_t>();
+    options.seed = kind;
+    options.focal = kind % 3 == 1 ? LODEMARK_FOCAL_UNKNOWN : LODEMARK_FOCAL_KNOWN;
     Disturb(&bytes_, &options);
     if (options.most_samples <= 0 || options.most_samples > 200) options.most_samples = 200;
     return options;
@@ -282,6 +284,7 @@ class Sequence {
     RequireFinite(pose.camera_from_enu);
     RequireFinite(pose.alternative_ecef_m);
     Require(std::isfinite(pose.heading_deg) && std::isfinite(pose.noise_px));
+    Require(std::isfinite(pose.focal_px) && std::isfinite(pose.focal_sigma_px));
     if (!has_pose) return;
     Require(std::abs(pose.latitude_deg) <= 90.0 && pose.inliers >= 3);
     Require(pose.accuracy_m > 0.0 && std::isfinite(pose.accuracy_m));

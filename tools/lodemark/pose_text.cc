@@ -70,6 +70,10 @@ std::string PoseText(const lodemark_pose& pose, std::int32_t sights) {
             LengthText(pose.vertical_accuracy_m) + " in height\n";
     text += Format("  looks        %.3f deg from north, %+.3f deg up, rolled %+.3f deg\n",
                    pose.heading_deg, pose.pitch_deg, pose.roll_deg);
+    if (pose.focal_sigma_px > 0.0) {
+      text += Format("  focal        %.2f px, standard deviation %.2f px\n", pose.focal_px,
+                     pose.focal_sigma_px);
+    }
   }
   text += Format("  sights       %d of %d agree", pose.inliers, sights);
   if (HasPose(pose)) text += Format(", with %.2f px of noise", pose.noise_px);
@@ -98,6 +102,10 @@ nlohmann::ordered_json PoseJson(const lodemark_pose& pose, std::int32_t sights) 
     json["pitch_deg"] = pose.pitch_deg;
     json["roll_deg"] = pose.roll_deg;
     json["noise_px"] = pose.noise_px;
+    if (pose.focal_sigma_px > 0.0) {
+      json["focal_px"] = pose.focal_px;
+      json["focal_sigma_px"] = pose.focal_sigma_px;
+    }
     json["covariance_m2_deg2"] = List(pose.covariance);
   }
   if (pose.verdict == LODEMARK_POSE_AMBIGUOUS) {

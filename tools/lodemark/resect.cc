@@ -1,6 +1,7 @@
 // lodemark resect: a camera's pose from landmarks and the pixels they were seen at.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -30,6 +31,7 @@ struct ResectCommandOptions {
   ViewOptions view;
   double threshold_px = 0.0;
   std::uint64_t seed = 0;
+  std::int32_t focal = LODEMARK_FOCAL_KNOWN;
   bool json = false;
 };
 
@@ -65,6 +67,7 @@ int RunResect(const ResectCommandOptions& options) {
   lodemark_resect_options resect = lens->resect;
   resect.inlier_threshold_px = options.threshold_px;
   resect.seed = options.seed;
+  resect.focal = options.focal;
   const lodemark_status status =
       lodemark_pose_resect(&lens->lens, file->sights.data(), count, *prior ? &**prior : nullptr,
                            &resect, &pose, residuals.data(), nullptr);
@@ -128,6 +131,12 @@ void AddResectCommand(CLI::App& app, int* exit_code) {
                    "Of east_m,north_m,up_m: LATITUDE,LONGITUDE,HEIGHT (default 0,0,0)")
       ->delimiter(',')
       ->expected(3);
+  const std::map<std::string, std::int32_t> focal = {{"known", LODEMARK_FOCAL_KNOWN},
+                                                     {"unknown", LODEMARK_FOCAL_UNKNOWN}};
+  command
+      ->add_option("--focal", options->focal,
+                   "known (default), or unknown: found with the pose, the rest of the lens is kept")
+      ->transform(CLI::CheckedTransformer(focal).description("{known,unknown}"));
   AddViewOptions(*command, &options->view);
   command
       ->add_option("--threshold", options->threshold_px,

@@ -311,6 +311,9 @@ typedef struct lodemark_view_prior {
 /* Bits of lodemark_resect_options.present. */
 #define LODEMARK_RESECT_HAS_INTRINSICS_COVARIANCE 0x1u
 
+#define LODEMARK_FOCAL_KNOWN 0   /* the lens's */
+#define LODEMARK_FOCAL_UNKNOWN 1 /* found with the pose; the rest of the lens is kept */
+
 /* All zero is a good choice. */
 typedef struct lodemark_resect_options {
   uint32_t struct_size;
@@ -321,6 +324,8 @@ typedef struct lodemark_resect_options {
   int32_t reserved;
   /* HAS_INTRINSICS_COVARIANCE: by rows, in the order of LODEMARK_LENS_INTRINSICS. */
   double intrinsics_covariance[LODEMARK_LENS_INTRINSICS * LODEMARK_LENS_INTRINSICS];
+  int32_t focal; /* LODEMARK_FOCAL_... */
+  int32_t reserved_2;
 } lodemark_resect_options;
 
 /* What became of a resection. The first two have a pose to use. */
@@ -353,6 +358,8 @@ typedef struct lodemark_pose {
   double log10_chance;        /* how often random sights would agree so well: -3 is once in 1000 */
   double alternative_ecef_m[3]; /* of POSE_AMBIGUOUS */
   double alternative_camera_from_enu[4];
+  double focal_px;       /* fx of the lens, or the one found; fy is in the ratio of the lens */
+  double focal_sigma_px; /* of the one found */
 } lodemark_pose;
 
 /* How one sight fared, and how far its landmark is. */
@@ -368,7 +375,9 @@ typedef struct lodemark_sight_residual {
  * The camera's pose from count sights, many of which may be mistaken. prior and options may be
  * NULL; of a prior, position and gravity are used. residuals, unless NULL, has room for count
  * elements; range_covariance_m2, unless NULL, for count * count: the covariance between the visual
- * ranges by rows, zero where a sight was not used.
+ * ranges by rows, zero where a sight was not used. With LODEMARK_FOCAL_UNKNOWN of options the focal
+ * length is found too, from five sights or more that do not all lie on a plane seen straight on;
+ * the lens then gives the size of the image, the principal point, the distortion, and a guess.
  *
  * LODEMARK_NO_POSITION if there is no pose to use; pose->verdict says why.
  */
@@ -439,7 +448,8 @@ LODEMARK_API lodemark_status lodemark_map_query(lodemark_map* map, const lodemar
  * Query and resect in one, and once more around the pose found: where the photograph was taken.
  * out, capacity, count: the sights of the last round; out may be NULL with capacity 0 and residuals
  * NULL; otherwise both have room for capacity elements. The other arguments as in
- * lodemark_map_query and lodemark_pose_resect.
+ * lodemark_map_query and lodemark_pose_resect, but that LODEMARK_FOCAL_UNKNOWN gives
+ * LODEMARK_ERROR_UNSUPPORTED: query, and resect with it.
  */
 LODEMARK_API lodemark_status lodemark_map_locate(
     lodemark_map* map, const lodemark_lens* lens, const uint8_t* pixels, int64_t stride_bytes,

@@ -127,16 +127,46 @@ TEST(ResectWithFocal, SaysWhenASceneIsNotThere) {
   EXPECT_EQ(camera->pose.verdict, PoseVerdict::kNotHere);
 }
 
-TEST(ResectWithFocal, NeedsFiveSightsAndALensThatDoesNotBend) {
+// The scene's pinhole, bending as a phone's wide lens does, and as an action camera's.
+TEST(ResectWithFocal, FindsTheFocalLengthOfALensThatBends) {
+  SceneOptions options;
+  options.sights = 100;
+  options.outlier_share = 0.4;
+  for (const LensModel model : {LensModel::kBrown, LensModel::kFisheye}) {
+    double focal = 0.0;
+    constexpr int kScenes = 3;
+    for (int k = 0; k < kScenes; ++k) {
+      options.seed = 1 + static_cast<std::uint64_t>(k);
+      ResectionScene scene = MakeResectionScene(options);
+      LensParameters parameters = scene.lens.parameters();
+      parameters.model = model;
+      parameters.coefficients[0] = model == LensModel::kBrown ? -0.25 : -0.02;
+      parameters.coefficients[1] = model == LensModel::kBrown ? 0.08 : 0.003;
+      const Lens bending = *Lens::Create(parameters);
+      for (LandmarkSight& sight : scene.sights) {
+        sight.pixel = *bending.Project(*scene.lens.Unproject(sight.pixel));
+      }
+      const Result<ResectedCamera> camera =
+          ResectWithFocal(scene.sights, GuessedLens(bending), {}, {});
+      ASSERT_TRUE(camera.ok());
+      ASSERT_EQ(camera->pose.verdict, PoseVerdict::kPose) << k;
+      ASSERT_TRUE(camera->lens.has_value());
+      EXPECT_EQ(camera->lens->parameters().fx_px, camera->focal_px);
+      EXPECT_LT((camera->pose.centre_in_enu_m() - scene.centre_in_enu_m).norm(), 1.0);
+      const double sigmas = (camera->focal_px - parameters.fx_px) / camera->focal_sigma_px;
+      focal += sigmas * sigmas / kScenes;
+    }
+    std::printf("square in sigmas of the focal length %.2f\n", focal);
+    EXPECT_LT(focal, 1.0 + 3.0 * std::sqrt(2.0 / kScenes)) << static_cast<int>(model);
+  }
+}
+
+TEST(ResectWithFocal, NeedsFiveSights) {
   SceneOptions options;
   options.sights = 4;
   options.outlier_share = 0.0;
   const ResectionScene scene = MakeResectionScene(options);
   EXPECT_EQ(ResectWithFocal(scene.sights, scene.lens, {}, {})->pose.verdict, PoseVerdict::kTooFew);
-  LensParameters parameters = scene.lens.parameters();
-  parameters.model = LensModel::kBrown;
-  parameters.coefficients[0] = -0.1;
-  EXPECT_FALSE(ResectWithFocal(scene.sights, *Lens::Create(parameters), {}, {}).ok());
 }
 
 }  // namespace
