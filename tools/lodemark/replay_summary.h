@@ -31,7 +31,7 @@ class ReplaySummary {
   double coverage() const;
   double mean_satellites_used() const;  // of the answered epochs
   double mean_satellites_seen() const;  // of all epochs
-  // Estimates by what they rest on ("gnss", "vision", "gnss+vision").
+  // Estimates by what they rest on ("gnss", "vision", "gnss+vision", "motion").
   std::map<std::string, std::int64_t> Sources() const;
   // Estimates by what the photograph gave them, those with one near.
   std::map<std::string, std::int64_t> Photos() const;

@@ -41,11 +41,12 @@ const char* WordOf(const char* const (&words)[kCount], std::int32_t value) {
   return value >= 0 && index < kCount ? words[index] : "unknown";
 }
 
-const char* SourcesWord(std::uint32_t sources) {
-  const bool gnss = (sources & LODEMARK_SOURCE_GNSS) != 0;
-  const bool vision = (sources & LODEMARK_SOURCE_VISION) != 0;
+const char* SourcesWord(const lodemark_estimate& estimate) {
+  if ((estimate.present & LODEMARK_ESTIMATE_HAS_POSITION) == 0) return "";
+  const bool gnss = (estimate.sources & LODEMARK_SOURCE_GNSS) != 0;
+  const bool vision = (estimate.sources & LODEMARK_SOURCE_VISION) != 0;
   if (gnss && vision) return "gnss+vision";
-  return gnss ? "gnss" : vision ? "vision" : "";
+  return gnss ? "gnss" : vision ? "vision" : "motion";
 }
 
 // What an event's value means, where it means something.
@@ -166,7 +167,7 @@ void RunWriter::WriteTrajectory(const lodemark_estimate& from) {
   }
   to.clock_bias_m = known(kPosition, from.clock_bias_m);
   to.clock_drift_mps = known(kVelocity, from.clock_drift_mps);
-  to.sources.assign(SourcesWord(from.sources));
+  to.sources.assign(SourcesWord(from));
   to.satellites_used = from.satellites_used;
   to.hdop = known(kPosition, from.hdop);
   to.vdop = known(kPosition, from.vdop);
