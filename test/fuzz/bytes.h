@@ -19,6 +19,7 @@ class Bytes {
   Bytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
 
   bool empty() const { return size_ == 0; }
+  std::size_t left() const { return size_; }
 
   template <typename T>
   T Take() {

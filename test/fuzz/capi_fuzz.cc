@@ -83,6 +83,7 @@ class Sequence {
     lodemark_session_close(session_);
     auto options = Sized<lodemark_session_options>();
     options.queue_capacity = 4;
+    options.estimator = static_cast<std::int32_t>(bytes_.left() % 3);
     Disturb(&bytes_, &options);
     if (options.queue_capacity > 64) options.queue_capacity = 64;  // memory is not the question
     const lodemark_status status = Seen(lodemark_session_open(&options, &session_));
@@ -162,6 +163,24 @@ class Sequence {
     const lodemark_status status = Seen(lodemark_session_estimate(session_, &estimate));
     const bool has_position = (estimate.present & LODEMARK_ESTIMATE_HAS_POSITION) != 0;
     Require(has_position == (status == LODEMARK_OK));
+    CheckEstimate(estimate);
+    CheckSmoothed();
+  }
+
+  // Of a long way only the beginning, but all of it is smoothed.
+  void CheckSmoothed() {
+    std::vector<lodemark_estimate> smoothed(8, Sized<lodemark_estimate>());
+    std::int32_t count = 0;
+    if (Seen(lodemark_session_smoothed(session_, smoothed.data(), 8, &count)) != LODEMARK_OK)
+      return;
+    Require(count >= 0);
+    for (std::int32_t i = 0; i < count && i < 8; ++i) {
+      CheckEstimate(smoothed[static_cast<std::size_t>(i)]);
+    }
+  }
+
+  static void CheckEstimate(const lodemark_estimate& estimate) {
+    const bool has_position = (estimate.present & LODEMARK_ESTIMATE_HAS_POSITION) != 0;
     Require(has_position == (estimate.outcome == LODEMARK_OUTCOME_FIX));
     if (!has_position) return;
     for (const double value : estimate.ecef_m) Require(std::isfinite(value));
