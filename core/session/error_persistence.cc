@@ -31,13 +31,18 @@ double LeftOfWhite(double seconds, double window_s) {
 
 }  // namespace
 
+// The sum over the covariance of a first-order autoregressive sequence.
 double RangedErrors::OfMean(double epochs, double seconds_each) const {
-  const double t = std::max(epochs * seconds_each / kPassing_s, 1e-6);
-  return white / epochs + passing * std::min(1.0, 2.0 / t * (1.0 + std::expm1(-t) / t));
+  const double gone = -std::expm1(-seconds_each / kPassing_s);  // from one epoch to the next
+  const double gone_in_all = -std::expm1(-epochs * seconds_each / kPassing_s);
+  const double kept = 1.0 - gone;
+  return white / epochs +
+         passing / epochs *
+             ((1.0 + kept) / gone - 2.0 * kept * gone_in_all / (epochs * gone * gone));
 }
 
 double RangedErrors::AlikeEpochs(double seconds_each) const {
-  return white + passing * 2.0 * kPassing_s / seconds_each;
+  return white + passing / std::tanh(0.5 * seconds_each / kPassing_s);
 }
 
 RangedErrors ErrorPersistence::Shares() const {

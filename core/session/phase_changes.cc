@@ -43,12 +43,14 @@ std::span<const RangeChangeObservation> PhaseChanges::Update(std::int64_t time_g
           now.orbit_gps_ns != before->orbit_gps_ns) {
         continue;
       }
-      const Eigen::Vector3d line = now.satellite_in_ecef - place_in_ecef;
+      // From one place the satellite's motion is taken out, so the receiver's is seen from where
+      // the satellite was.
+      const Eigen::Vector3d line = before->satellite_in_ecef - place_in_ecef;
       const double distance_m = line.norm();
       RangeChangeObservation change;
       change.direction_in_ecef = line / distance_m;
       change.change_m = now.phase_m - before->phase_m -
-                        (distance_m - (before->satellite_in_ecef - place_in_ecef).norm());
+                        ((now.satellite_in_ecef - place_in_ecef).norm() - distance_m);
       change.sigma_m = std::hypot(now.sigma_m, before->sigma_m, kWander_mps * gap_s);
       double against_rate_mps = std::numeric_limits<double>::quiet_NaN();
       if (now.rate_mps && before->rate_mps) {

@@ -28,6 +28,7 @@ double SatelliteTrust::SigmaFactor(SatelliteId satellite) const {
 
 void SatelliteTrust::Learn(double seconds, const std::vector<PreparedSignal>& signals,
                            std::span<const ObservationVerdict> verdicts) {
+  if (!(seconds > 0.0)) return;
   for (Record& record : satellites_) {
     record.heard = 0.0;
     record.ranges = 0;
