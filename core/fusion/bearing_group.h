@@ -28,6 +28,7 @@ struct AttitudePriors {
 
 struct BearingOptions {
   double wrong_probability = 0.02;  // that a bearing is of another point than the one it names
+  bool proven = true;               // as a witness's is_proven
   // Of the picture, in squared standard deviations of a bearing: where a wrong one may lie.
   double wrong_area = 1e6;
   // What all points of the map are displaced by in common.
@@ -48,6 +49,7 @@ class BearingGroup : public PositionWitness {
 
   PositionStatement At(const Eigen::Vector3d& point_in_ecef) override;
   bool Agrees() const override;
+  bool is_proven() const override { return options_.proven; }
   std::size_t parts() const override { return bearings_.size(); }
   double WeightOf(std::size_t part) const override { return verdicts_[part].weight; }
   PositionStatement Without(std::size_t part) const override;

@@ -100,6 +100,7 @@ PointStatus CombinedAdjustment::SolveAsWeighted(
     return alone;
   };
 
+  if (!witness->is_proven() && !estimate->has_satellites_alone) return without_witness();
   Eigen::Vector3d point = start_in_ecef;
   PositionStatement statement = witness->At(point);
   if (!statement.information_pm2.allFinite() || statement.Rank(kUnknownPlace_m) == 0) {

@@ -36,9 +36,11 @@ struct PhotoSighting {
   bool HasPose() const {
     return pose.verdict == PoseVerdict::kPose || pose.verdict == PoseVerdict::kWeak;
   }
-  // Too few landmarks for a pose, but how the camera was held is known.
+  // Too few landmarks for a pose that is more than chance, but how the camera was held is known.
+  // Where more agree no better than chance, the photograph is of another place.
+  static constexpr std::size_t kMostLines = 8;
   bool HasLines() const {
-    return pose.verdict == PoseVerdict::kTooFew && !matches.empty() && attitude.gravity &&
+    return !HasPose() && !matches.empty() && matches.size() <= kMostLines && attitude.gravity &&
            attitude.heading;
   }
 };

@@ -97,7 +97,10 @@ void SightingWitness::PrepareBearings(const PhotoSighting& sighting) {
     matches_.push_back(i);
   }
   BearingOptions options;
-  if (!has_pose) options.wrong_probability = kUncheckedWrong;
+  if (!has_pose) {
+    options.wrong_probability = kUncheckedWrong;
+    options.proven = sighting.pose.verdict == PoseVerdict::kTooFew;
+  }
   options.common_covariance_enu_m2 = common_m2;
   Eigen::Quaterniond camera_from_ecef = Eigen::Quaterniond::Identity();
   if (has_pose) {
