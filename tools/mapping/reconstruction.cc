@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "tools/mapping/triangulation.h"
 
@@ -16,13 +17,44 @@ constexpr double kLeastSigma_px = 0.2;
 constexpr double kSiftSigmaOfSize = 0.04;
 constexpr double kOrbSigmaOfSize = 0.02;
 
+// What is known of one landmark's noise from all others counts as so many of its own redundancies.
+constexpr double kCommonRedundancy = 4.0;
+
+// Of chi-square with so many degrees of freedom (Wilson and Hilferty 1931).
+double ChiSquareMedian(double freedom) {
+  return freedom * std::pow(1.0 - 2.0 / (9.0 * freedom), 3);
+}
+
+// How well the views of one landmark agree.
+struct Agreement {
+  double squares = 0.0;  // of the residuals in their sigmas
+  double redundancy = 0.0;
+};
+
+// Variance of what is out by its sigma, by the weighted median over landmarks: mistaken views and
+// poses that are out do not make all landmarks uncertain.
+double CommonVariance(const std::vector<Agreement>& all) {
+  std::vector<std::pair<double, double>> variances;  // with the weight of each
+  double half = 0.0;
+  for (const Agreement& one : all) {
+    if (!(one.redundancy > 0.0)) continue;
+    variances.emplace_back(one.squares / ChiSquareMedian(one.redundancy), one.redundancy);
+    half += 0.5 * one.redundancy;
+  }
+  std::sort(variances.begin(), variances.end());
+  for (const auto& [variance, weight] : variances) {
+    half -= weight;
+    if (half <= 0.0) return variance;
+  }
+  return 1.0;
+}
+
 using Solver = std::function<std::optional<TriangulatedPoint>(std::size_t track,
                                                               std::span<const PointView> views)>;
 
 void SolveTracks(const std::vector<FeatureTrack>& tracks, const Solver& solve,
                  const Progress& progress, Reconstruction* reconstruction) {
-  double squares = 0.0;
-  double redundancy = 0.0;
+  std::vector<Agreement> agreements;
   std::vector<PointView> views;
   for (std::size_t t = 0; t < tracks.size(); ++t) {
     if (t % 256 == 0) progress(static_cast<double>(t) / static_cast<double>(tracks.size()));
@@ -40,8 +72,7 @@ void SolveTracks(const std::vector<FeatureTrack>& tracks, const Solver& solve,
     }
     const std::optional<TriangulatedPoint> solved = solve(t, views);
     if (!solved) continue;
-    squares += solved->squares;
-    redundancy += 2.0 * solved->used - 3.0;
+    agreements.push_back({solved->squares, 2.0 * solved->used - 3.0});
     ReconstructedPoint point;
     point.in_world = solved->in_world;
     point.covariance = solved->unit_covariance;
@@ -52,9 +83,13 @@ void SolveTracks(const std::vector<FeatureTrack>& tracks, const Solver& solve,
               [](const ImageFeature& a, const ImageFeature& b) { return a.image < b.image; });
     reconstruction->points.push_back(std::move(point));
   }
-  reconstruction->noise_px = redundancy > 0.0 ? std::sqrt(squares / redundancy) : 1.0;
-  const double variance = reconstruction->noise_px * reconstruction->noise_px;
-  for (ReconstructedPoint& point : reconstruction->points) point.covariance *= variance;
+  const double common = CommonVariance(agreements);
+  reconstruction->noise_px = std::sqrt(common);
+  for (std::size_t i = 0; i < agreements.size(); ++i) {
+    const Agreement& own = agreements[i];
+    reconstruction->points[i].covariance *=
+        (kCommonRedundancy * common + own.squares) / (kCommonRedundancy + own.redundancy);
+  }
   progress(1.0);
 }
 

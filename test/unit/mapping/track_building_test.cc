@@ -109,6 +109,35 @@ TEST(BuildTracks, KeepsApartWhatLooksAlikeOffTheEpipolarLine) {
   EXPECT_LT(BuildTracks(wall.images, {}, [](double) {}).size(), 15U);
 }
 
+TEST(TriangulateTracks, ViewsThatDisagreeMakeTheirOwnLandmarkUncertainOnly) {
+  Wall wall;
+  const auto tracks = BuildTracks(wall.images, {}, [](double) {});
+  const auto triangulate = [&] {
+    Reconstruction reconstruction;
+    reconstruction.images = wall.images;
+    TriangulateTracks(tracks, {}, [](double) {}, &reconstruction);
+    return reconstruction;
+  };
+  const Reconstruction before = triangulate();
+  // One in twenty of the points is seen 1.5 px too high in one photograph.
+  for (std::size_t p = 0; p < wall.points.size(); p += 20) {
+    wall.images[1].features.keypoints[p].y_px += 1.5F;
+  }
+  const Reconstruction after = triangulate();
+  EXPECT_NEAR(after.noise_px, before.noise_px, 0.1 * before.noise_px);
+  ASSERT_EQ(after.points.size(), before.points.size());
+  int enlarged = 0;
+  for (std::size_t i = 0; i < after.points.size(); ++i) {
+    const double times = after.points[i].covariance.trace() / before.points[i].covariance.trace();
+    if (after.points[i].seen.front().feature % 20 == 0) {
+      if (times > 1.5) ++enlarged;
+    } else {
+      EXPECT_NEAR(times, 1.0, 0.2);
+    }
+  }
+  EXPECT_GE(enlarged, 5);
+}
+
 TEST(TriangulateTracks, GivesPointsWhereTheyAreAndTheNoise) {
   const Wall wall;
   Reconstruction reconstruction;
