@@ -113,7 +113,7 @@ std::optional<DrawnPhoto> DriveLandmarks::Photograph(std::int64_t time_ns,
   Matrix6d information =
       PhotoInformation(right, lens_, camera_from_enu, place.in_enu_m, noise.gravity_sigma_rad);
   information(5, 5) += 1.0 / (noise.heading_sigma_rad * noise.heading_sigma_rad);
-  return DrawnPhoto{std::move(sighting), CentreBound(information)};
+  return DrawnPhoto{std::move(sighting), CentreBound(information), CentreInformation(information)};
 }
 
 }  // namespace lodemark

@@ -39,7 +39,8 @@ struct PathPoint {
 // A photograph with the truth that it was drawn from.
 struct DrawnPhoto {
   PhotoSighting sighting;
-  Eigen::Matrix3d bound_enu_m2;  // Cramer-Rao bound of the camera's place; infinite: fixes none
+  Eigen::Matrix3d bound_enu_m2;     // Cramer-Rao bound of the camera's place; infinite: fixes none
+  Eigen::Matrix3d information_pm2;  // Fisher's of the place, where the photograph fixes none too
 };
 
 class DriveLandmarks {

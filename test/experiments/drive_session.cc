@@ -119,7 +119,7 @@ std::vector<DriveAnswer> DriveSession::Replay(
     if (const auto* sky = std::get_if<IonosphereMessage>(&record)) solver.ionosphere().Add(*sky);
   }
   if (run.all_systems) solver.orbits().Add(*drive_.orbits);
-  PhotoFusion fusion(run.scheme, options.time_base);
+  PhotoFusion fusion(options);
   std::vector<DriveAnswer> answers(epochs_);
   std::vector<SatelliteStatus> statuses;
   std::vector<LandmarkStatus> landmarks;

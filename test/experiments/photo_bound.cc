@@ -33,6 +33,13 @@ Eigen::Matrix3d CentreBound(const Matrix6d& information) {
   return covariance.topLeftCorner<3, 3>();
 }
 
+Eigen::Matrix3d CentreInformation(const Matrix6d& information) {
+  const Eigen::Matrix3d cross = information.topRightCorner<3, 3>();
+  const Eigen::LLT<Eigen::Matrix3d> attitude(information.bottomRightCorner<3, 3>());
+  return information.topLeftCorner<3, 3>() -
+         cross * attitude.solve(Eigen::Matrix3d(cross.transpose()));
+}
+
 Eigen::Quaterniond LevelCamera(double heading_rad, double pitch_rad, double roll_rad) {
   // Level first: right, down, forward in rows.
   Eigen::Matrix3d level;

@@ -20,6 +20,9 @@ Matrix6d PhotoInformation(const std::vector<LandmarkSight>& sights, const Lens& 
 // Least covariance of the centre; infinite on its diagonal where nothing fixes it.
 Eigen::Matrix3d CentreBound(const Matrix6d& information);
 
+// What all of it tells of the centre, the attitude unknown.
+Eigen::Matrix3d CentreInformation(const Matrix6d& information);
+
 // A camera that looks along a heading, then tilted up and rolled.
 Eigen::Quaterniond LevelCamera(double heading_rad, double pitch_rad, double roll_rad);
 
