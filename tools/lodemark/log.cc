@@ -154,15 +154,15 @@ std::string CheckText(const LogSurvey& survey) {
   for (const std::string& fault : survey.faults) text += survey.file + ": " + fault + "\n";
   if (survey.backward_steps > 0) {
     text +=
-        survey.file + ": time runs backwards " + GroupDigits(survey.backward_steps) + " times\n";
+        survey.file + ": time runs backwards " + Counted(survey.backward_steps, "time") + "\n";
   }
   if (survey.repeated_times > 0) {
-    text += survey.file + ": " + GroupDigits(survey.repeated_times) +
-            " epochs have the time of the one before\n";
+    text += survey.file + ": " + Counted(survey.repeated_times, "epoch") +
+            " with the time of the one before\n";
   }
   if (survey.report.rows_unknown > 0) {
-    text += survey.file + ": " + GroupDigits(survey.report.rows_unknown) +
-            " rows of a kind we do not know were passed over\n";
+    text += survey.file + ": " + Counted(survey.report.rows_unknown, "row") +
+            " of a kind we do not know passed over\n";
   }
   return text;
 }
@@ -177,12 +177,12 @@ std::string VerdictText(const LogSurvey& survey) {
     text += "of no use";
   } else if (survey.report.rows_skipped > 0) {
     text += "malformed: " + GroupDigits(survey.report.rows_skipped) + " of " +
-            GroupDigits(survey.report.rows_skipped + survey.report.rows_read) +
-            " rows skipped, the rest is usable";
+            Counted(survey.report.rows_skipped + survey.report.rows_read, "row") +
+            " skipped, the rest is usable";
   } else {
     text += "good: " + Counted(survey.report.rows_read, "row") + " read";
     if (survey.report.values_dropped > 0) {
-      text += ", " + GroupDigits(survey.report.values_dropped) + " implausible values left out";
+      text += ", " + Counted(survey.report.values_dropped, "implausible value") + " left out";
     }
   }
   return text + "\n";

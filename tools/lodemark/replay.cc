@@ -193,16 +193,16 @@ void AddRemarks(const ReplayInputs& inputs, const MeasurementSource& source,
   const ReadReport& report = source.report();
   const MeasurementCounts& counts = source.counts();
   if (report.rows_skipped > 0) {
-    remarks->Add(file + ": " + GroupDigits(report.rows_skipped) +
-                 " malformed rows skipped; see 'lodemark log check'");
+    remarks->Add(file + ": " + Counted(report.rows_skipped, "malformed row") +
+                 " skipped; see 'lodemark log check'");
   }
   if (counts.unknown_constellation > 0) {
-    remarks->Add(file + ": " + GroupDigits(counts.unknown_constellation) +
-                 " measurements of a constellation that this version does not know left out");
+    remarks->Add(file + ": " + Counted(counts.unknown_constellation, "measurement") +
+                 " of a constellation that this version does not know left out");
   }
   if (counts.epochs_refused > 0 && counts.epochs > 0) {
-    remarks->Add(file + ": " + GroupDigits(counts.epochs_refused) +
-                 " epochs left out, the first because " + counts.first_refusal);
+    remarks->Add(file + ": " + Counted(counts.epochs_refused, "epoch") +
+                 " left out, the first because " + counts.first_refusal);
   }
   const std::map<std::string, std::int64_t> events = summary.Events();
   const auto count_of = [&events](const char* word) {
@@ -210,12 +210,12 @@ void AddRemarks(const ReplayInputs& inputs, const MeasurementSource& source,
     return found != events.end() ? found->second : 0;
   };
   if (const std::int64_t count = count_of("time_backwards"); count > 0) {
-    remarks->Add(file + ": time runs backwards " + GroupDigits(count) +
-                 " times; epochs older than the one before are left out until it goes on");
+    remarks->Add(file + ": time runs backwards; " + Counted(count, "epoch") +
+                 " older than one before left out until it goes on");
   }
   if (const std::int64_t count = count_of("duplicate_epoch"); count > 0) {
-    remarks->Add(file + ": " + GroupDigits(count) +
-                 " epochs with the time of the one before left out");
+    remarks->Add(file + ": " + Counted(count, "epoch") +
+                 " with the time of the one before left out");
   }
   const std::string bare = summary.SystemsWithoutEphemeris();
   if (!bare.empty() && summary.answered() > 0) {
@@ -292,7 +292,7 @@ int RunReplay(const ReplayOptions& options) {
     Error error = verdict.error();
     if (summary.epochs() > 0) {
       error.message +=
-          "; the " + GroupDigits(summary.epochs()) + " epochs before are in " + options.out;
+          "; what " + Counted(summary.epochs(), "epoch") + " before gave is in " + options.out;
     }
     return ReportError(error);
   }
