@@ -79,8 +79,9 @@ std::string InfoText(const std::string& path, const FeatureMap& map, const Landm
           std::string(KindName(info.descriptor_kind)) + "\n";
   text += "  landmarks    " + GroupDigits(info.landmarks);
   if (info.landmarks > 0) {
-    text += Format(", sigma %.3f m in the middle, %.3f m at worst", summary.median_sigma_m,
-                   summary.worst_sigma_m);
+    text += summary.worst_sigma_m > 0.0 ? Format(", sigma %.3f m in the middle, %.3f m at worst",
+                                                 summary.median_sigma_m, summary.worst_sigma_m)
+                                        : ", no sigma stated";
   }
   text += "\n";
   if (info.landmarks > 0) {
