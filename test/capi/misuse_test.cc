@@ -417,6 +417,9 @@ TEST_F(MisuseTest, UnknownConstantsAndBitsAreUnsupportedAndNonsenseIsInvalid) {
   Expect(&session_options_, &Options::ionosphere, 6, kUnsupported, "ionosphere", open);
   Expect(&session_options_, &Options::troposphere, 3, kUnsupported, "troposphere", open);
   Expect(&session_options_, &Options::weight, 2, kUnsupported, "weight", open);
+  Expect(&session_options_, &Options::scheme, 5, kUnsupported, "scheme", open);
+  Expect(&session_options_, &Options::estimator, 3, kUnsupported, "estimator", open);
+  Expect(&session_options_, &Options::estimator, -1, kInvalid, "estimator", open);
   Expect(&session_options_, &Options::queue_capacity, -1, kInvalid, "queue_capacity", open);
   Expect(&session_options_, &Options::queue_capacity, INT32_MAX, kInvalid, "queue_capacity", open);
   Expect(&session_options_, &Options::elevation_mask_deg, 91.0, kInvalid, "elevation_mask", open);
