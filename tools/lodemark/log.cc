@@ -153,8 +153,7 @@ std::string CheckText(const LogSurvey& survey) {
   if (met > kept) text += survey.file + ": and " + GroupDigits(met - kept) + " more\n";
   for (const std::string& fault : survey.faults) text += survey.file + ": " + fault + "\n";
   if (survey.backward_steps > 0) {
-    text +=
-        survey.file + ": time runs backwards " + Counted(survey.backward_steps, "time") + "\n";
+    text += survey.file + ": time runs backwards " + Counted(survey.backward_steps, "time") + "\n";
   }
   if (survey.repeated_times > 0) {
     text += survey.file + ": " + Counted(survey.repeated_times, "epoch") +
