@@ -21,6 +21,9 @@ constexpr double kShortest_s = 1e-3;
 // Most ranges fit nothing for so long: the place is lost.
 constexpr double kLongestUnexplained_s = 5.0;
 
+// Fewer ranges cannot prove that the place is lost, nor find it anew.
+constexpr std::size_t kFewestRanges = 5;
+
 // Ranges, in sum of probabilities, that must be likelier noise than anything else: without a lock
 // all of them look late.
 constexpr double kFewestOrdinary = 1.0;
@@ -48,6 +51,7 @@ double Seconds(std::int64_t from_ns, std::int64_t to_ns) {
 }
 
 bool Unexplained(std::span<const ObservationVerdict> verdicts) {
+  if (verdicts.size() < kFewestRanges) return false;
   double ordinary = 0.0;
   double late = 0.0;
   for (const ObservationVerdict& verdict : verdicts) {
@@ -155,6 +159,7 @@ void EpochFilter::HearEpoch(const GnssEpochModel& model, const PointEstimate& po
     Start(point.position_in_ecef, errors.AlikeEpochs(kUsual_s) * point.covariance_enu_m2);
     return;
   }
+  if (verdicts.empty()) return;
   if (Unexplained(verdicts)) {
     unexplained_s_ += seconds_;
     if (unexplained_s_ > kLongestUnexplained_s) filter_.Stop();

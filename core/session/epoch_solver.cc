@@ -115,6 +115,12 @@ void EpochSolver::Solve(const ObservationEpoch& epoch, const PhotoPart& photo,
   }
   last_place_in_ecef_ = point_.position_in_ecef;
   if (filters()) filter_.HearEpoch(model_, point_, verdicts_);
+  // So few ranges only help what the motion carries on.
+  if (filters() && ranges_.size() < static_cast<std::size_t>(kFewestSatellites) &&
+      !Coast(estimate)) {
+    estimate->status = EstimateStatus::kTooFewSatellites;
+    return;
+  }
   FillPosition(estimate);
   Judge(estimate, statuses);
   SolveVelocity(estimate, statuses);

@@ -78,11 +78,15 @@ std::vector<ObservationEpoch> Drive(const SessionScene& scene) {
     std::vector<SignalObservation>& signals = epochs[i].signals;
     const std::size_t one_band = signals.size();
     for (std::size_t k = 0; k < one_band; ++k) {
+      signals[k].present |= kHasCarrierPhase;
+      signals[k].carrier_phase_cycles =
+          signals[k].pseudorange_m * signals[k].frequency_hz / kSpeedOfLight_mps;
       signals[k].pseudorange_m += noise_m(random) + ((i + k) % 7 == 0 ? 40.0 : 0.0);
       SignalObservation second = signals[k];
       second.signal = {'5', 'Q'};
       second.frequency_hz = 1176.45e6;
       second.doppler_hz *= second.frequency_hz / signals[k].frequency_hz;
+      second.carrier_phase_cycles *= second.frequency_hz / signals[k].frequency_hz;
       signals.push_back(second);
     }
   }
@@ -116,7 +120,9 @@ TEST(SessionAllocation, ObservationEpochsAllocateNothingInTheSteadyState) {
   everything.weight = WeightChoice::kElevation;
   everything.estimate_variance_components = true;
   everything.troposphere = TroposphereChoice::kHopfield;
-  for (const SessionOptions& options : {plain, everything}) {
+  SessionOptions filter;
+  filter.estimator = Estimator::kFilter;
+  for (const SessionOptions& options : {plain, everything, filter}) {
     SessionScene scene;
     const std::vector<ObservationEpoch> epochs = Drive(scene);
     scene.options = options;
