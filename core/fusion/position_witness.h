@@ -29,8 +29,8 @@ class PositionWitness {
   // Whether most of what it knows fits the point of the last At together.
   virtual bool Agrees() const = 0;
 
-  // False for one that no other test has found sound: it helps satellites that have a place of their
-  // own, and gives none by itself.
+  // False for one that no other test has found sound: it helps satellites that have a place of
+  // their own, and gives none by itself.
   virtual bool is_proven() const { return true; }
 
   // Parts that can be mistaken by themselves, and whether part i counts now, 0..1.

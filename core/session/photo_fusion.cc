@@ -7,8 +7,8 @@
 
 #include "core/base/units.h"
 #include "core/fusion/protection.h"
-#include "core/session/stated_accuracy.h"
 #include "core/session/map_buildings.h"
+#include "core/session/stated_accuracy.h"
 
 namespace lodemark {
 namespace {
