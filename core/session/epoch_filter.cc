@@ -21,6 +21,11 @@ constexpr double kShortest_s = 1e-3;
 // Most ranges fit nothing for so long: the place is lost.
 constexpr double kLongestUnexplained_s = 5.0;
 
+// A place of its own fits an epoch's ranges better anyway, the more so the more are reflections;
+// beyond that, as much as makes one in a thousand certain.
+constexpr double kLikelierAnyway = 8.0;
+constexpr double kProof = 8.0;
+
 // Fewer ranges cannot prove that the place is lost, nor find it anew.
 constexpr std::size_t kFewestRanges = 5;
 
@@ -148,11 +153,27 @@ std::optional<PositionStatement> EpochFilter::Place() const {
   return filter_.Place();
 }
 
+void EpochFilter::Doubt(double likelier) {
+  const double seconds = seconds_ > 0.0 ? seconds_ : kUsual_s;
+  const double share = 1.0 / persistence_.Shares().AlikeEpochs(seconds);
+  lost_ = std::max(0.0, lost_ + share * (likelier - kLikelierAnyway));
+}
+
+bool EpochFilter::ProvesLost(double likelier) {
+  Doubt(likelier);
+  fprintf(stderr, "lost t %.1f likelier %.1f sum %.2f\n", 1e-9 * (time_ns_ % 100000000000000),
+          likelier, lost_);
+  if (lost_ < kProof) return false;
+  filter_.Stop();
+  return true;
+}
+
 void EpochFilter::HearEpoch(const GnssEpochModel& model, const PointEstimate& point,
                             std::span<const ObservationVerdict> verdicts) {
   trust_.Learn(seconds_, model.used_signals(), verdicts);
   const RangedErrors errors = persistence_.Shares();
   if (!filter_.started()) {
+    lost_ = 0.0;
     epochs_ = 1.0;
     lasting_m2_ = errors.lasting * point.covariance_enu_m2;
     ranged_share_.setIdentity();

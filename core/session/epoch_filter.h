@@ -49,6 +49,12 @@ class EpochFilter {
   // What is known of the place before the moment's own observations are heard.
   std::optional<PositionStatement> Place() const;
 
+  // The ranges of an epoch are by so much likelier elsewhere (log). True, and stopped, once epochs
+  // that err alike prove it together.
+  bool ProvesLost(double likelier);
+  // Nothing makes them look so.
+  void NoteFound() { Doubt(0.0); }
+
   // From the adjustment that heard Place() and the ranges of the epoch advanced to.
   void HearEpoch(const GnssEpochModel& model, const PointEstimate& point,
                  std::span<const ObservationVerdict> verdicts);
@@ -60,6 +66,7 @@ class EpochFilter {
   void ForgetSteps() { steps_.clear(); }
 
  private:
+  void Doubt(double likelier);
   void Move(std::int64_t time_ns);
   void Start(const Eigen::Vector3d& position_in_ecef, const Eigen::Matrix3d& covariance_enu_m2);
   // Hears what an adjustment made of the present state, as strong as a share of it.
@@ -81,6 +88,7 @@ class EpochFilter {
   double seconds_ = 0.0;        // between the last two epochs
   double silent_s_ = 0.0;       // since a velocity was measured
   double unexplained_s_ = 0.0;  // for so long most ranges have fitted nothing
+  double lost_ = 0.0;           // how much likelier it is by now to be elsewhere (log)
   double epochs_ = 0.0;         // heard since the filter began, or as good as
   Eigen::Matrix3d lasting_m2_ = Eigen::Matrix3d::Zero();  // of ranges, whatever the time
   Eigen::Matrix3d ranged_share_ = Eigen::Matrix3d::Zero();

@@ -7,6 +7,7 @@
 #include "core/fusion/coarse_position.h"
 #include "core/geo/geodetic.h"
 #include "core/session/distinct_satellites.h"
+#include "core/session/lost_place.h"
 #include "core/session/redundancy.h"
 #include "core/session/stated_accuracy.h"
 
@@ -113,8 +114,11 @@ void EpochSolver::Solve(const ObservationEpoch& epoch, const PhotoPart& photo,
     Coast(estimate);
     return;
   }
+  if (filters()) {
+    LookForLostFilter(point_.position_in_ecef, PointOptionsAt(epoch.time_gps_ns));
+    filter_.HearEpoch(model_, point_, verdicts_);
+  }
   last_place_in_ecef_ = point_.position_in_ecef;
-  if (filters()) filter_.HearEpoch(model_, point_, verdicts_);
   // So few ranges only help what the motion carries on.
   if (filters() && ranges_.size() < static_cast<std::size_t>(kFewestSatellites) &&
       !Coast(estimate)) {
@@ -322,6 +326,24 @@ void EpochSolver::FillFromFilter(SessionEstimate* estimate) const {
   estimate->velocity_covariance_enu_m2ps2 = filter_.VelocityCovarianceEnu();
   StateAccuracy(estimate);
   estimate->clock_drift_mps = filter_.clock_drift_mps();
+}
+
+void EpochSolver::LookForLostFilter(const Eigen::Vector3d& place, PointOptions options) {
+  const std::optional<PositionStatement> expected = filter_.Place();
+  if (!expected) return;
+  if (!LooksLost(*expected, point_, verdicts_)) {
+    filter_.NoteFound();
+    return;
+  }
+  options.place.reset();
+  const PointStatus status =
+      adjustment_.Solve(ranges_, place, biases_, options, &alone_, &verdicts_alone_);
+  if (status != PointStatus::kGood) return;
+  const double likelier =
+      LogLikelihood(ranges_, verdicts_alone_) - LogLikelihood(ranges_, verdicts_);
+  if (!filter_.ProvesLost(likelier)) return;
+  point_ = alone_;
+  verdicts_ = verdicts_alone_;
 }
 
 bool EpochSolver::Coast(SessionEstimate* estimate) const {

@@ -75,6 +75,8 @@ class EpochSolver {
                      const PointOptions& options);
   PointOptions PointOptionsAt(std::int64_t time_gps_ns) const;
   void FillFromFilter(SessionEstimate* estimate) const;
+  // Whether the ranges prove that the filter is elsewhere: then the adjustment is theirs alone.
+  void LookForLostFilter(const Eigen::Vector3d& place, PointOptions options);
   // Where there was too little to adjust: the state of the filter, while it is good enough.
   bool Coast(SessionEstimate* estimate) const;
   void SolveVelocity(SessionEstimate* estimate, std::vector<SatelliteStatus>* statuses);
@@ -98,6 +100,8 @@ class EpochSolver {
   std::size_t satellite_ranges_ = 0;
   bool modelled_ = false;  // the last epoch: there was a place to model it from
   PointEstimate point_;
+  PointEstimate alone_;  // of the ranges without the filter
+  std::vector<ObservationVerdict> verdicts_alone_;
   PhotoOutcome photo_ = PhotoOutcome::kNone;
   std::vector<ObservationVerdict> verdicts_;  // of ranges_
   std::vector<double> redundancy_;            // of each range

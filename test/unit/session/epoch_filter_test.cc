@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -155,6 +156,30 @@ TEST(EpochFilter, TimesSinceBootAreAsGoodAndMayGoBack) {
     EXPECT_TRUE(estimate.covariance_enu_m2.allFinite());
     EXPECT_LT(filter_scene.HorizontalError(estimate, i), 15.0) << i;
     EXPECT_LT(filter_scene.HorizontalError(estimate, i), 4.0 * estimate.accuracy_m) << i;
+  }
+}
+
+// The first epochs are those of a receiver 100 m to the north.
+std::vector<ObservationEpoch> BegunElsewhere(const FilterScene& filter_scene, int epochs) {
+  FilterScene elsewhere = filter_scene;
+  elsewhere.scene.place.latitude_rad += 100.0 / 6.37e6;
+  std::vector<ObservationEpoch> drive = filter_scene.Drive(epochs);
+  const std::vector<ObservationEpoch> wrong = elsewhere.Drive(4, 5);
+  std::copy(wrong.begin(), wrong.end(), drive.begin());
+  return drive;
+}
+
+TEST(EpochFilter, ComesBackFromAWrongStart) {
+  for (const Eigen::Vector3d& velocity_mps : {kDriving_mps, kStill_mps}) {
+    const FilterScene filter_scene(velocity_mps);
+    const std::vector<SessionEstimate> estimates =
+        filter_scene.Run(BegunElsewhere(filter_scene, 60));
+    EXPECT_GT(filter_scene.HorizontalError(estimates[3], 3), 80.0);
+    for (std::size_t i = 25; i < estimates.size(); ++i) {
+      const double error_m = filter_scene.HorizontalError(estimates[i], static_cast<int>(i));
+      EXPECT_LT(error_m, 4.0 * estimates[i].accuracy_m) << i;
+      EXPECT_LT(error_m, 12.0) << i;
+    }
   }
 }
 
