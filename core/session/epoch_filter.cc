@@ -161,8 +161,6 @@ void EpochFilter::Doubt(double likelier) {
 
 bool EpochFilter::ProvesLost(double likelier) {
   Doubt(likelier);
-  fprintf(stderr, "lost t %.1f likelier %.1f sum %.2f\n", 1e-9 * (time_ns_ % 100000000000000),
-          likelier, lost_);
   if (lost_ < kProof) return false;
   filter_.Stop();
   return true;
