@@ -10,6 +10,9 @@ namespace {
 constexpr double kBrief_s = 5.0;
 constexpr double kExtended_s = 60.0;
 
+// Epochs farther apart leave the short average nothing to average.
+constexpr double kSparsest_s = 2.5;
+
 // What is believed before anything is seen is worth so many residuals.
 constexpr double kPriorCount = 500.0;
 
@@ -75,6 +78,10 @@ RangedErrors ErrorPersistence::Shares() const {
 void ErrorPersistence::Learn(double seconds, const std::vector<PreparedSignal>& signals,
                              std::span<const ObservationVerdict> verdicts) {
   if (!(seconds > 0.0)) return;
+  if (seconds > kSparsest_s) {
+    tracks_.clear();
+    return;
+  }
   seconds_ = seconds;
   const double brief_gain = std::min(1.0, seconds / kBrief_s);
   const double extended_gain = std::min(1.0, seconds / kExtended_s);

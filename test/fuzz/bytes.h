@@ -3,14 +3,20 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <source_location>
 #include <string>
 
 namespace lodemark::test {
 
-inline void Require(bool condition) {
-  if (!condition) std::abort();
+inline void Require(bool condition,
+                    const std::source_location& where = std::source_location::current()) {
+  if (condition) return;
+  std::fprintf(stderr, "%s:%u: what must hold does not\n", where.file_name(),
+               static_cast<unsigned>(where.line()));
+  std::abort();
 }
 
 // Reads values off the input; zeros once it is used up.

@@ -119,9 +119,19 @@ TEST(ErrorPersistence, TimesThatDoNotAdvanceTeachNothing) {
   ErrorPersistence persistence;
   const std::vector<PreparedSignal> signals(3);
   const std::vector<ObservationVerdict> verdicts(3, ObservationVerdict{5.0, 1.0, 0.0, true, true});
-  for (const double seconds : {0.0, -1e9, std::nan("")})
+  for (const double seconds : {0.0, -1e9, std::nan("")}) {
     persistence.Learn(seconds, signals, verdicts);
+  }
   EXPECT_NEAR(persistence.Shares().white, RangedErrors().white, 1e-9);
+}
+
+TEST(ErrorPersistence, EpochsFarApartTeachNothing) {
+  for (const double seconds : {5.0, 30.0, 60.0, 119.0}) {
+    const RangedErrors learned = LearnedFrom({0.0, 0.0, 1.0}, seconds);
+    EXPECT_NEAR(learned.white, RangedErrors().white, 1e-9) << seconds;
+    EXPECT_NEAR(learned.passing, RangedErrors().passing, 1e-9) << seconds;
+    EXPECT_NEAR(learned.lasting, RangedErrors().lasting, 1e-9) << seconds;
+  }
 }
 
 }  // namespace
