@@ -25,6 +25,7 @@ using Call = std::function<lodemark_status()>;
 // What structs that have grown were in the first version of the interface.
 constexpr std::uint32_t kFirstSessionOptions = 72;
 constexpr std::uint32_t kFirstEstimate = 344;
+constexpr std::uint32_t kFirstSatellite = 88;
 
 // The sizes that no version of a struct has.
 template <typename T>
@@ -268,8 +269,9 @@ TEST_F(MisuseTest, EveryStructRefusesWrongSizes) {
   }
   RefusesWrongSizes(
       &estimate_, [&] { return lodemark_session_estimate(session_, &estimate_); }, kFirstEstimate);
-  RefusesWrongSizes(&satellite_,
-                    [&] { return lodemark_session_satellites(session_, &satellite_, 1, &count_); });
+  RefusesWrongSizes(
+      &satellite_, [&] { return lodemark_session_satellites(session_, &satellite_, 1, &count_); },
+      kFirstSatellite);
   RefusesWrongSizes(&event_,
                     [&] { return lodemark_session_events(session_, &event_, 1, &count_); });
   lodemark_range_residual residuals[4] = {};
