@@ -40,15 +40,16 @@ Result<PhotoSighting> Sight(const FeatureMap& map, const MapFrame& map_frame,
 
   PhotoPrior photo;
   photo.resection.gravity = frame.gravity;
+  PhotoOptions options;
   if (prior) {
     photo.view = ViewFrom(*prior, frame, sighting.frame);
     if (sights.has_buildings()) {
-      photo.view->may_be_seen = [&sights](const Landmark& landmark) {
+      options.look_up.may_be_seen = [&sights](const Landmark& landmark) {
         return sights.MayBeSeen(landmark.position_in_enu_m);
       };
     }
   }
-  Result<PhotoPosition> found = LocatePhoto(map, frame.image, frame.lens, photo, {});
+  Result<PhotoPosition> found = LocatePhoto(map, frame.image, frame.lens, photo, options);
   if (!found) return found.error();
   const auto has_pose = [](const PhotoPosition& position) {
     return position.pose.verdict == PoseVerdict::kPose ||

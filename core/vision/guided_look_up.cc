@@ -25,7 +25,8 @@ struct Prediction {
 
 // Ascending by id.
 Result<std::vector<Prediction>> Predict(const FeatureMap& map, const Lens& lens,
-                                        const Rigid3& camera_from_enu, double radius_px) {
+                                        const Rigid3& camera_from_enu, double radius_px,
+                                        const LookUpOptions& options) {
   const Eigen::Vector3d camera_in_enu_m =
       camera_from_enu.rotation().conjugate() * -camera_from_enu.translation();
   Result<std::vector<Landmark>> landmarks = map.LandmarksWithin(camera_in_enu_m, kFarthest_m);
@@ -43,6 +44,7 @@ Result<std::vector<Prediction>> Predict(const FeatureMap& map, const Lens& lens,
     const Eigen::Vector3d to_camera_m = camera_in_enu_m - landmark.position_in_enu_m;
     const double distance_m = to_camera_m.norm();
     if (!(distance_m > 0.0)) continue;
+    if (options.may_be_seen && !options.may_be_seen(landmark)) continue;
     const Eigen::Vector3d direction = to_camera_m / distance_m;
     predictions.push_back(
         {landmark.id, *pixel, direction.cast<float>(), static_cast<float>(distance_m)});
@@ -94,7 +96,7 @@ Result<std::vector<LandmarkMatch>> LookUpGuided(const FeatureMap& map, const Fea
         "guided look-up: the radius or the pose is not finite, or the radius not positive"};
   }
   const Result<std::vector<Prediction>> predictions =
-      Predict(map, lens, camera_from_enu, radius_px);
+      Predict(map, lens, camera_from_enu, radius_px, options);
   if (!predictions) return predictions.error();
   if (predictions->empty() || features.keypoints.empty()) return std::vector<LandmarkMatch>{};
 

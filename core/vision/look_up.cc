@@ -15,7 +15,7 @@ Result<std::vector<LandmarkMatch>> LookUp(const FeatureMap& map, const Features&
   if (const Status status = CheckFeatures(map, features); !status) return status.error();
   std::optional<ViewScope> in_view;
   if (prior) {
-    Result<ViewScope> scope = ViewScope::Of(map, lens, *prior);
+    Result<ViewScope> scope = ViewScope::Of(map, lens, *prior, options);
     if (!scope) return scope.error();
     if (scope->size() == 0) return std::vector<LandmarkMatch>{};
     in_view = std::move(scope).value();

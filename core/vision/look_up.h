@@ -23,13 +23,13 @@ struct ViewPrior {
   std::optional<double> heading_rad;
   double heading_sigma_rad = 0.0;
   double farthest_m = 1000.0;  // landmarks beyond are not asked
-  // Others are hidden, by walls for example; empty: all are looked for.
-  std::function<bool(const Landmark& landmark)> may_be_seen;
 };
 
 struct LookUpOptions {
   double largest_ratio = 0.8;  // nearest to second nearest landmark, as Lowe (2004) section 7.1
   SearchOptions search;
+  // With a prior or around a pose, others are hidden, by walls for example; empty: none are.
+  std::function<bool(const Landmark& landmark)> may_be_seen;
 };
 
 // A feature of the photograph that is taken for a landmark.

@@ -74,7 +74,8 @@ Result<ViewScope> ViewScope::Empty(const FeatureMap& map) {
   return scope;
 }
 
-Result<ViewScope> ViewScope::Of(const FeatureMap& map, const Lens& lens, const ViewPrior& prior) {
+Result<ViewScope> ViewScope::Of(const FeatureMap& map, const Lens& lens, const ViewPrior& prior,
+                                const LookUpOptions& options) {
   const Result<double> sigma_m = PositionSigma(prior);
   if (!sigma_m) return sigma_m.error();
   if (!(prior.farthest_m > 0.0)) return BadPrior("the farthest distance is not positive");
@@ -103,7 +104,7 @@ Result<ViewScope> ViewScope::Of(const FeatureMap& map, const Lens& lens, const V
         if (off_rad > reach_rad + std::asin(slack_m / distance_m)) continue;
       }
     }
-    if (prior.may_be_seen && !prior.may_be_seen(landmark)) continue;
+    if (options.may_be_seen && !options.may_be_seen(landmark)) continue;
     scope->Admit(landmark);
   }
   return scope;

@@ -19,8 +19,10 @@ class ViewScope {
   // None. Error if the map's ids are so sparse that a table of them would be out of proportion.
   static Result<ViewScope> Empty(const FeatureMap& map);
 
-  // Those the prior lets the lens have in view. Error if the prior is no prior.
-  static Result<ViewScope> Of(const FeatureMap& map, const Lens& lens, const ViewPrior& prior);
+  // Those the prior lets the lens have in view, and that options do not call hidden. Error if the
+  // prior is no prior.
+  static Result<ViewScope> Of(const FeatureMap& map, const Lens& lens, const ViewPrior& prior,
+                              const LookUpOptions& options);
 
   void Admit(const Landmark& landmark);
   bool admits(std::uint32_t id) const { return id < allowed_.size() && allowed_[id] != 0; }

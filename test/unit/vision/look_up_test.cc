@@ -59,8 +59,9 @@ struct Street {
 };
 
 std::vector<LandmarkMatch> Find(const FeatureMap& map, const Features& features,
-                                const std::optional<ViewPrior>& prior = {}) {
-  Result<std::vector<LandmarkMatch>> matches = LookUp(map, features, SceneLens(), prior, {});
+                                const std::optional<ViewPrior>& prior = {},
+                                const LookUpOptions& options = {}) {
+  Result<std::vector<LandmarkMatch>> matches = LookUp(map, features, SceneLens(), prior, options);
   EXPECT_TRUE(matches.ok()) << (matches ? "" : matches.error().message);
   return matches ? std::move(*matches) : std::vector<LandmarkMatch>{};
 }
@@ -192,13 +193,29 @@ TEST(LookUp, LeavesOutWhatIsHidden) {
   street.AddTwins([](const Eigen::Vector3d& place) -> Eigen::Vector3d { return 3.5 * place; },
                   {0, 0, 0});
   const auto map = street.draft.Open();
-  ViewPrior prior = AtOrigin();
-  prior.may_be_seen = [](const Landmark& landmark) {
+  LookUpOptions options;
+  options.may_be_seen = [](const Landmark& landmark) {
     return landmark.position_in_enu_m.norm() < 51.0;  // twins are at 52 m and more
   };
-  EXPECT_GT(Right(Find(*map, street.features, prior)), 150);
-  prior.may_be_seen = [](const Landmark&) { return false; };
-  EXPECT_TRUE(Find(*map, street.features, prior).empty());
+  EXPECT_GT(Right(Find(*map, street.features, AtOrigin(), options)), 150);
+  options.may_be_seen = [](const Landmark&) { return false; };
+  EXPECT_TRUE(Find(*map, street.features, AtOrigin(), options).empty());
+}
+
+TEST_P(LookUpOfKind, GuidedLeavesOutWhatIsHiddenToo) {
+  const Street street(GetParam());
+  const auto map = street.draft.Open();
+  LookUpOptions options;
+  options.may_be_seen = [](const Landmark& landmark) {
+    return landmark.position_in_enu_m.x() > 0.0;
+  };
+  const auto matches =
+      LookUpGuided(*map, street.features, SceneLens(), LookingNorth(), 8.0, options);
+  ASSERT_TRUE(matches.ok());
+  EXPECT_GT(matches->size(), 60U);
+  for (const LandmarkMatch& match : *matches) {
+    EXPECT_GT(match.landmark.position_in_enu_m.x(), 0.0);
+  }
 }
 
 TEST(LookUp, LeavesOutWhatWasSeenFromTheOtherSide) {
