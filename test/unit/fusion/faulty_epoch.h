@@ -63,8 +63,10 @@ struct FaultyScene {
     DrawSatellites(epochs);
     DrawLandmarks(epochs);
     constexpr double kGravitySigma_rad = 0.01;
-    const auto tilt = [&] { return random.Gaussian(0.0, kGravitySigma_rad); };
-    const Eigen::Vector3d up_in_camera(tilt(), -1.0, tilt());  // the camera is held level
+    // One draw a statement: compilers take the arguments of a call in different orders.
+    const double forward = random.Gaussian(0.0, kGravitySigma_rad);
+    const double sideways = random.Gaussian(0.0, kGravitySigma_rad);
+    const Eigen::Vector3d up_in_camera(sideways, -1.0, forward);  // the camera is held level
     attitude.gravity = AttitudePriors::Gravity{up_in_camera.normalized(), kGravitySigma_rad};
     start_in_ecef = ranges.Beside({random.Gaussian(0.0, 5.0), random.Gaussian(0.0, 5.0), 0.0});
     Repeat(epochs);
@@ -92,14 +94,17 @@ struct FaultyScene {
   void DrawLandmarks(const FaultyEpochs& epochs) {
     wall_m = random.Uniform(20.0, 80.0);
     for (int i = 0; i < epochs.landmarks; ++i) {
-      const Eigen::Vector3d landmark(wall_m * random.Uniform(-0.6, 0.6),
-                                     wall_m + random.Uniform(-6.0, 6.0),
-                                     wall_m * random.Uniform(-0.1, 0.3));
+      const double up_m = wall_m * random.Uniform(-0.1, 0.3);
+      const double away_m = wall_m + random.Uniform(-6.0, 6.0);
+      const double along_m = wall_m * random.Uniform(-0.6, 0.6);
+      const Eigen::Vector3d landmark(along_m, away_m, up_m);
       // What is seen of the wall is that far beside it, in any direction.
       const double aside_m = random.Exponential(epochs.mismatch_m);
       const double turn_rad = random.Uniform(0.0, 2.0 * kPi);
       const bool is_mismatched = random.Uniform() < epochs.mismatched;
-      Eigen::Vector2d noise(random.Gaussian(), random.Gaussian());
+      const double down = random.Gaussian();
+      const double right = random.Gaussian();
+      Eigen::Vector2d noise(right, down);
       if (is_mismatched) {
         noise += aside_m / (landmark.norm() * kBearingSigma_rad) *
                  Eigen::Vector2d(std::cos(turn_rad), std::sin(turn_rad));
@@ -111,8 +116,8 @@ struct FaultyScene {
 
   // The whole wall in one half of the cases.
   void Repeat(const FaultyEpochs& epochs) {
-    const double period_m = random.Uniform(epochs.least_period_m, epochs.largest_period_m) *
-                            (random.Uniform() < 0.5 ? -1.0 : 1.0);
+    const double width_m = random.Uniform(epochs.least_period_m, epochs.largest_period_m);
+    const double period_m = random.Uniform() < 0.5 ? -width_m : width_m;
     const bool is_whole = random.Uniform() < 0.5;
     const double edge_m = random.Uniform(-0.6, 0.6) * wall_m;
     if (random.Uniform() >= epochs.repeated) return;
