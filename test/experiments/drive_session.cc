@@ -112,6 +112,7 @@ std::vector<DriveAnswer> DriveSession::Replay(
     const DriveRun& run, const std::vector<std::optional<DrawnPhoto>>& photos) {
   SessionOptions options;
   options.scheme = run.scheme;
+  options.estimator = run.estimator;
   if (!run.all_systems) options.systems = kGpsOnly;
   EpochSolver solver(options);
   for (const NavigationRecord& record : drive_.navigation) {
@@ -131,11 +132,15 @@ std::vector<DriveAnswer> DriveSession::Replay(
       fusion.Take(photos[i]->sighting, &solver, &estimate, &landmarks);
       estimate.time_gps_ns = estimate.time_ns;
     }
-    if (run.outage.Holds(i)) continue;
-    const ObservationEpoch epoch = Seen(i, run);
+    ObservationEpoch epoch = Seen(i, run);
+    if (run.outage.Holds(i)) {
+      // A phone goes on reporting; without a filter nothing comes of it.
+      if (run.estimator == Estimator::kEpoch) continue;
+      epoch.signals.clear();
+    }
     estimate = SessionEstimate();
     estimate.time_ns = estimate.time_gps_ns = epoch.time_gps_ns;
-    solver.Solve(epoch, fusion.PartAt(epoch.time_gps_ns), &estimate, &statuses);
+    solver.Solve(epoch, fusion.PartForEpoch(epoch.time_gps_ns), &estimate, &statuses);
     fusion.Judge(solver, &estimate, &landmarks);
     fusion.NoteEpoch(epoch.time_gps_ns, estimate);
   }

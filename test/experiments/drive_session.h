@@ -26,6 +26,7 @@ struct DriveRun {
   bool all_systems = false;  // with precise orbits; else GPS with broadcast ones
   int satellites = 0;        // that the street leaves; 0: all
   EpochSpan outage = {};     // no signal at all
+  Estimator estimator = Estimator::kEpoch;
 };
 
 // One for each epoch, of its time or, where it has no signals, of the photograph before it.

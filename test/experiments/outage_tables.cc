@@ -144,6 +144,11 @@ int Main(std::size_t epochs) {
   PrintHeader("Satellites alone", "landmarks");
   Print("gnss", "GPS", "none", gps, 0.0);
   Print("gnss", "all systems, precise", "none", all, 0.0);
+  for (const auto& [all_systems, name] :
+       {std::pair(false, "GPS"), std::pair(true, "all systems, precise")}) {
+    const DriveRun run = {Scheme::kGnss, all_systems, 0, {}, Estimator::kFilter};
+    Print("ekf", name, "none", Sum(*drive, session.Replay(run, {}), whole), 0.0);
+  }
   for (const int satellites : {3, 2}) {
     const DriveRun run = {Scheme::kGnss, false, satellites, {}};
     Print("gnss", std::to_string(satellites).c_str(), "none",
@@ -169,6 +174,10 @@ int Main(std::size_t epochs) {
     row({Scheme::kJoint, false, 2, {}}, "joint", "2", gps.rmse_m());
     const ErrorStatistics joint_all =
         row({Scheme::kJoint, true}, "joint", "all systems, precise", all.rmse_m());
+    row({Scheme::kJoint, false, 0, {}, Estimator::kFilter}, "ekf", "GPS", gps.rmse_m());
+    row({Scheme::kJoint, false, 2, {}, Estimator::kFilter}, "ekf", "2", gps.rmse_m());
+    row({Scheme::kJoint, true, 0, {}, Estimator::kFilter}, "ekf", "all systems, precise",
+        all.rmse_m());
 
     const auto best = [&](const char* satellites, const std::vector<DriveAnswer>& answers,
                           double gnss_m) {
@@ -180,10 +189,16 @@ int Main(std::size_t epochs) {
     best("All systems", all_answers, all.rmse_m());
 
     PrintHeader("A minute without any satellite", "when");
-    for (const auto& [scheme, name] :
-         {std::pair(Scheme::kGnss, "gnss"), std::pair(Scheme::kTight, "tight"),
-          std::pair(Scheme::kJoint, "joint")}) {
-      const DriveRun run = {scheme, false, 0, outage};
+    struct Way {
+      Scheme scheme;
+      Estimator estimator;
+      const char* name;
+    };
+    for (const auto& [scheme, estimator, name] : {Way{Scheme::kGnss, Estimator::kEpoch, "gnss"},
+                                                  Way{Scheme::kTight, Estimator::kEpoch, "tight"},
+                                                  Way{Scheme::kJoint, Estimator::kEpoch, "joint"},
+                                                  Way{Scheme::kJoint, Estimator::kFilter, "ekf"}}) {
+      const DriveRun run = {scheme, false, 0, outage, estimator};
       const std::vector<DriveAnswer> answers = session.Replay(run, photos);
       const EpochSpan before = {outage.first - outage.count, outage.count};
       const EpochSpan after = {outage.first + outage.count, outage.count};
@@ -191,7 +206,7 @@ int Main(std::size_t epochs) {
       const ErrorStatistics during = Sum(*drive, answers, outage);
       Print(name, "none", "the minute", during, gps.rmse_m());
       Print(name, "GPS", "after", Sum(*drive, answers, after), gps.rmse_m());
-      if (scheme == Scheme::kJoint && &street == &kStreets[0]) {
+      if (estimator == Estimator::kFilter) {
         must(during.answered_share() == 1.0, "an answer in every second of the outage");
       }
     }
