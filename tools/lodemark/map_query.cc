@@ -5,8 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/base/units.h"
+#include "core/geo/geodetic.h"
 #include "lodemark/lodemark.h"
 #include "tools/lodemark/command.h"
 #include "tools/lodemark/lens_file.h"
@@ -82,6 +85,18 @@ std::string PerPhoto(const std::string& path, const std::string& photo, bool sev
                                   : path.substr(0, dot) + "_" + stem + path.substr(dot);
 }
 
+// Of a map that lies nowhere on the earth.
+std::optional<EnuFrame> LocalFrame(const lodemark_map* map) {
+  lodemark_map_info info = {};
+  info.struct_size = sizeof info;
+  if (lodemark_map_read_info(map, &info) != LODEMARK_OK ||
+      std::string_view(info.datum) != "local") {
+    return std::nullopt;
+  }
+  return EnuFrame({info.origin_geodetic[0] * kRadiansPerDegree,
+                   info.origin_geodetic[1] * kRadiansPerDegree, info.origin_geodetic[2]});
+}
+
 int RunQuery(const QueryOptions& options) {
   const Result<LensFile> lens = ReadLensFile(options.camera);
   if (!lens) return ReportError(lens.error());
@@ -96,6 +111,7 @@ int RunQuery(const QueryOptions& options) {
     return ReportError(LastError(status, ""));
   }
   const MapHandle map(opened);
+  const std::optional<EnuFrame> frame = LocalFrame(map.get());
 
   nlohmann::ordered_json answers = nlohmann::ordered_json::array();
   int exit_code = kExitGood;
@@ -110,10 +126,10 @@ int RunQuery(const QueryOptions& options) {
     const auto sights = static_cast<std::int32_t>(answer->sights.size());
     if (options.json) {
       nlohmann::ordered_json json = {{"photo", path}};
-      json.update(PoseJson(answer->pose, sights));
+      json.update(PoseJson(answer->pose, sights, frame ? &*frame : nullptr));
       answers.push_back(std::move(json));
     } else {
-      PrintResult(path + "\n" + PoseText(answer->pose, sights));
+      PrintResult(path + "\n" + PoseText(answer->pose, sights, frame ? &*frame : nullptr));
     }
     const bool has_pose =
         answer->pose.verdict == LODEMARK_POSE_GOOD || answer->pose.verdict == LODEMARK_POSE_WEAK;

@@ -13,6 +13,10 @@ bool HasPose(const lodemark_pose& pose) {
   return pose.verdict == LODEMARK_POSE_GOOD || pose.verdict == LODEMARK_POSE_WEAK;
 }
 
+Eigen::Vector3d PlaceIn(const EnuFrame& frame, const lodemark_pose& pose) {
+  return frame.FromEcef({pose.ecef_m[0], pose.ecef_m[1], pose.ecef_m[2]});
+}
+
 template <std::size_t kSize>
 std::vector<double> List(const double (&values)[kSize]) {
   return {values, values + kSize};
@@ -61,11 +65,17 @@ std::string LengthText(double length_m) {
   return Format("%.1f m", length_m);
 }
 
-std::string PoseText(const lodemark_pose& pose, std::int32_t sights) {
+std::string PoseText(const lodemark_pose& pose, std::int32_t sights, const EnuFrame* frame) {
   std::string text = "  pose         " + std::string(VerdictName(pose.verdict)) + "\n";
   if (HasPose(pose)) {
-    text += Format("  place        %.8f, %.8f, height %.3f m\n", pose.latitude_deg,
-                   pose.longitude_deg, pose.height_m);
+    if (frame != nullptr) {
+      const Eigen::Vector3d place_m = PlaceIn(*frame, pose);
+      text += Format("  place        %.4f m east, %.4f m north, %.4f m up in the map's frame\n",
+                     place_m.x(), place_m.y(), place_m.z());
+    } else {
+      text += Format("  place        %.8f, %.8f, height %.3f m\n", pose.latitude_deg,
+                     pose.longitude_deg, pose.height_m);
+    }
     text += "  accuracy     " + LengthText(pose.accuracy_m) + " horizontally (68 %), " +
             LengthText(pose.vertical_accuracy_m) + " in height\n";
     text += Format("  looks        %.3f deg from north, %+.3f deg up, rolled %+.3f deg\n",
@@ -85,16 +95,22 @@ std::string PoseText(const lodemark_pose& pose, std::int32_t sights) {
   return text;
 }
 
-nlohmann::ordered_json PoseJson(const lodemark_pose& pose, std::int32_t sights) {
+nlohmann::ordered_json PoseJson(const lodemark_pose& pose, std::int32_t sights,
+                                const EnuFrame* frame) {
   nlohmann::ordered_json json = {{"verdict", VerdictName(pose.verdict)},
                                  {"sights", sights},
                                  {"inliers", pose.inliers},
                                  {"log10_chance", pose.log10_chance}};
   if (HasPose(pose)) {
-    json["latitude_deg"] = pose.latitude_deg;
-    json["longitude_deg"] = pose.longitude_deg;
-    json["height_m"] = pose.height_m;
-    json["ecef_m"] = List(pose.ecef_m);
+    if (frame != nullptr) {
+      const Eigen::Vector3d place_m = PlaceIn(*frame, pose);
+      json["enu_m"] = {place_m.x(), place_m.y(), place_m.z()};
+    } else {
+      json["latitude_deg"] = pose.latitude_deg;
+      json["longitude_deg"] = pose.longitude_deg;
+      json["height_m"] = pose.height_m;
+      json["ecef_m"] = List(pose.ecef_m);
+    }
     json["accuracy_m"] = pose.accuracy_m;
     json["vertical_accuracy_m"] = pose.vertical_accuracy_m;
     json["camera_from_enu_wxyz"] = List(pose.camera_from_enu);

@@ -80,11 +80,11 @@ int RunResect(const ResectCommandOptions& options) {
   const std::optional<std::vector<double>> local =
       has_pose ? LocalPlace(pose, *file, origin_geodetic) : std::nullopt;
   if (options.json) {
-    nlohmann::ordered_json json = PoseJson(pose, count);
+    nlohmann::ordered_json json = PoseJson(pose, count, nullptr);
     if (local) json["local_enu_m"] = *local;
     PrintResult(json.dump(2) + "\n");
   } else {
-    PrintResult(PoseText(pose, count));
+    PrintResult(PoseText(pose, count, nullptr));
     if (local) {
       PrintResult(Format("  local        east %.4f, north %.4f, up %.4f m\n", (*local)[0],
                          (*local)[1], (*local)[2]));
