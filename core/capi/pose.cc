@@ -19,9 +19,6 @@ static_assert(LODEMARK_POSE_TOO_FEW == static_cast<int>(PoseVerdict::kTooFew));
 static_assert(LODEMARK_POSE_DEGENERATE == static_cast<int>(PoseVerdict::kDegenerate));
 static_assert(LODEMARK_POSE_NOT_HERE == static_cast<int>(PoseVerdict::kNotHere));
 
-// Half-width that holds 68 % of a normal distribution.
-constexpr double kSigmasHolding68 = 0.99446;
-
 void WriteQuaternion(const Eigen::Quaterniond& rotation, double (&out)[4]) {
   const double sign = rotation.w() < 0.0 ? -1.0 : 1.0;
   out[0] = sign * rotation.w();
@@ -98,7 +95,7 @@ lodemark_pose ToC(const ResectedPose& from, const LensParameters& lens, const En
   const Eigen::Matrix<double, 6, 6> covariance = turn * from.covariance * turn.transpose();
   Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(to.covariance) = covariance;
   to.accuracy_m = RadiusOfProbability(covariance.topLeftCorner<2, 2>(), 0.68);
-  to.vertical_accuracy_m = kSigmasHolding68 * std::sqrt(covariance(2, 2));
+  to.vertical_accuracy_m = kHalfWidth68 * std::sqrt(covariance(2, 2));
   to.noise_px = from.noise_px;
   if (ambiguous) {
     const LocalPose other = AtItsPlace(*from.alternative, frame);

@@ -225,7 +225,10 @@ void GnssEpochModel::Model(const ObservationEpoch& epoch, const Eigen::Vector3d&
     status.sigma_m = range.error.sigma_m;
 
     if (signal.Has(kHasDoppler)) AddRate(signal, prepared, place_in_ecef);
-    if (signal.Has(kHasCarrierPhase)) AddPhase(signal, prepared);
+    // Only a filter asks for them.
+    if (options_.estimator != Estimator::kEpoch && signal.Has(kHasCarrierPhase)) {
+      AddPhase(signal, prepared);
+    }
     used_.push_back(prepared);
     ranges_.push_back(range);
   }
