@@ -19,9 +19,6 @@ static_assert(LODEMARK_CLOCK_GROUPS <= kMaxClockGroups);
 
 constexpr double kSmallestSigma_m = 1e-6;
 
-// Half-width that holds 68 % of a normal distribution.
-constexpr double kSigmasHolding68 = 0.99446;
-
 std::int32_t ToOutcome(PointSolutionStatus status) {
   switch (status) {
     case PointSolutionStatus::kGood:
@@ -83,7 +80,7 @@ lodemark_solution ToC(const PointSolution& from) {
   to.height_m = place.height_m;
   std::memcpy(to.covariance_enu_m2, from.covariance_enu_m2.data(), sizeof to.covariance_enu_m2);
   to.accuracy_m = RadiusOfProbability(from.covariance_enu_m2.topLeftCorner<2, 2>(), 0.68);
-  to.vertical_accuracy_m = kSigmasHolding68 * std::sqrt(from.covariance_enu_m2(2, 2));
+  to.vertical_accuracy_m = kHalfWidth68 * std::sqrt(from.covariance_enu_m2(2, 2));
   to.pdop = from.pdop;
   to.hdop = from.hdop;
   to.vdop = from.vdop;
