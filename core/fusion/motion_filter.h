@@ -4,30 +4,15 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/fusion/acceleration_memory.h"
 #include "core/fusion/motion_smoother.h"
 #include "core/fusion/observation.h"
 #include "core/fusion/position_statement.h"
+#include "core/fusion/step_adjustment.h"
 
 namespace lodemark {
-
-// What one observation of a time update was worth.
-struct MotionVerdict {
-  double residual = 0.0;  // m/s of a rate, m of a change
-  double weight = 0.0;    // 0..1
-};
-
-struct MotionVerdicts {
-  std::vector<MotionVerdict> rates;
-  std::vector<MotionVerdict> changes;
-  // False: too few of them fit one velocity, or one displacement, and none was used.
-  bool rates_agree = false;
-  bool changes_agree = false;
-};
 
 class MotionFilter {
  public:
