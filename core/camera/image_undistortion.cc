@@ -39,6 +39,13 @@ cv::Point2f SourceOf(const Lens& source, const LensParameters& target, int x, in
   return {static_cast<float>(pixel->x()), static_cast<float>(pixel->y())};
 }
 
+Error FromOpenCv(const std::exception& exception) {
+  const auto* const theirs = dynamic_cast<const cv::Exception*>(&exception);
+  const bool memory = theirs != nullptr && theirs->code == cv::Error::StsNoMem;
+  return {memory ? ErrorCode::kOutOfMemory : ErrorCode::kInternal,
+          std::string("undistortion: ") + exception.what()};
+}
+
 }  // namespace
 
 // OpenCV's fixed-point form: whole pixels and thirty-seconds of them.
@@ -82,7 +89,7 @@ Result<ImageUndistortion> ImageUndistortion::Create(const Lens& source, const Le
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::kOutOfMemory, "undistortion: not enough memory for the map"};
   } catch (const std::exception& exception) {
-    return Error{ErrorCode::kInternal, std::string("undistortion: ") + exception.what()};
+    return FromOpenCv(exception);
   }
 }
 
@@ -117,7 +124,7 @@ Status ImageUndistortion::Apply(const GrayImage& image, std::span<std::uint8_t> 
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::kOutOfMemory, "undistortion: not enough memory"};
   } catch (const std::exception& exception) {
-    return Error{ErrorCode::kInternal, std::string("undistortion: ") + exception.what()};
+    return FromOpenCv(exception);
   }
   return {};
 }
