@@ -26,6 +26,7 @@ FeatureMap::~FeatureMap() = default;
 Result<std::unique_ptr<FeatureMap>> FeatureMap::Finish(Result<MapFile> file) {
   if (!file) return file.error();
   auto database = std::make_unique<Database>(*std::move(file));
+  if (Status status = database->Prepared(); !status) return status.error();
   // Still in the transaction in which everything was read.
   const Result<std::int64_t> version = database->ContentVersion();
   if (!version) return version.error();

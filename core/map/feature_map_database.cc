@@ -30,9 +30,10 @@ int BoxWithin(sqlite3_rtree_query_info* box) {
   return SQLITE_OK;
 }
 
-// The statement that finds the landmarks around the query's place; makes its function known first.
-const char* SelectPlaces(sqlite3* handle, PlaceQuery* query) {
-  sqlite3_rtree_query_callback(handle, "reached", BoxWithin, query, nullptr);
+// The statement that finds the landmarks around the query's place; makes its function known first,
+// of which code tells.
+const char* SelectPlaces(sqlite3* handle, PlaceQuery* query, int* code) {
+  *code = sqlite3_rtree_query_callback(handle, "reached", BoxWithin, query, nullptr);
   return "SELECT id FROM landmark_places WHERE id MATCH reached()";
 }
 
@@ -42,8 +43,20 @@ FeatureMap::Database::Database(MapFile&& opened)
     : file(std::move(opened)),
       content_version_row(file.connection.get(), "PRAGMA data_version"),
       landmarks(file.connection.get(), kSelectLandmarks),
-      places(file.connection.get(), SelectPlaces(file.connection->handle(), &place_query)),
+      places(file.connection.get(),
+             SelectPlaces(file.connection->handle(), &place_query, &place_function_code)),
       list_parts(&file) {}
+
+Status FeatureMap::Database::Prepared() const {
+  if (place_function_code != SQLITE_OK) return file.connection->Explain(place_function_code);
+  Status prepared = list_parts.status();
+  for (const SqliteStatement* statement : {&content_version_row, &landmarks, &places}) {
+    if (prepared) prepared = statement->status();
+  }
+  if (prepared || file.connection->InTransaction()) return prepared;
+  // Whatever it calls the failure, SQLite gives a reader's transaction up for want of memory alone.
+  return file.connection->Explain(SQLITE_NOMEM);
+}
 
 Result<std::int64_t> FeatureMap::Database::ContentVersion() {
   const bool row = content_version_row.Step();

@@ -23,6 +23,9 @@ struct PlaceQuery {
 struct FeatureMap::Database {
   explicit Database(MapFile&& opened);
 
+  // Whether every statement can be run. A failure here may have ended the transaction.
+  Status Prepared() const;
+
   // What the version of the file's content is now, as this connection counts it.
   Result<std::int64_t> ContentVersion();
 
@@ -39,7 +42,8 @@ struct FeatureMap::Database {
 
   MapFile file;
   std::int64_t content_version = 0;
-  PlaceQuery place_query;  // where the R*Tree finds the one it serves
+  PlaceQuery place_query;       // where the R*Tree finds the one it serves
+  int place_function_code = 0;  // of SQLite, when the R*Tree was told of place_query
   SqliteStatement content_version_row;
   SqliteStatement landmarks;
   SqliteStatement places;

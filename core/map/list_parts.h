@@ -23,6 +23,9 @@ class ListPartReader {
   using Visitor = std::function<void(std::int64_t key, const DescriptorListView& view)>;
   Status ForEach(std::int64_t first_key, std::int64_t last_key, const Visitor& visit);
 
+  // Whether the file could be asked at all.
+  Status status() const { return rows_.status(); }
+
   // Lets the file go after a visit that failed.
   void Reset() { rows_.Reset(); }
 

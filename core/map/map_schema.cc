@@ -216,6 +216,10 @@ Status CreateMapTables(SqliteConnection& connection) {
 }
 
 Status Begin(SqliteConnection& connection, MapAccess access) {
+  // Of a reader before, whose end found no memory.
+  if (access == MapAccess::kRead && connection.InTransaction()) {
+    if (Status status = connection.Execute("ROLLBACK"); !status) return status;
+  }
   // Another writer may take long, so do not wait for it; readers at Commit do not.
   if (access == MapAccess::kWrite) {
     connection.WaitForOthers(false);

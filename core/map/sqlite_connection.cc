@@ -3,6 +3,7 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
@@ -161,6 +162,14 @@ void SqliteConnection::AllowWork(std::int64_t file_size_bytes) {
   steps_left_ = kStepsForAnyFile + 4 * file_size_bytes;
 }
 
+// SQLite calls a file damaged, too, that the device refuses to read.
+int SqliteConnection::ReadError() const {
+  int system = 0;
+  if (handle_ == nullptr) return 0;
+  sqlite3_file_control(handle_, "main", SQLITE_FCNTL_LAST_ERRNO, &system);
+  return system == EIO || system == ENXIO ? system : 0;
+}
+
 Error SqliteConnection::MakeError(ErrorCode code, std::string_view sentence) const {
   std::string message = name_;
   message.append(": ").append(sentence);
@@ -180,6 +189,11 @@ Error SqliteConnection::Explain(int code) const {
     case SQLITE_NOTADB:
       return MakeError(ErrorCode::kBadData, "is not a feature map: not an SQLite file");
     case SQLITE_CORRUPT:
+      if (const int system = ReadError(); system != 0) {
+        return MakeError(ErrorCode::kIo,
+                         "cannot be read: " + std::generic_category().message(system));
+      }
+      [[fallthrough]];
     case SQLITE_FORMAT:
       return MakeError(ErrorCode::kBadData, "is damaged; get it again from where it was made");
     case SQLITE_INTERRUPT:

@@ -63,6 +63,7 @@ class SqliteConnection {
  private:
   SqliteConnection(std::string name, Mode mode);
   Status Harden();
+  int ReadError() const;  // errno, 0 if there was none
   sqlite3_file* File() const;
 
   std::string name_;
