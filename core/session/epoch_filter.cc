@@ -127,6 +127,7 @@ void EpochFilter::Move(std::int64_t time_ns) {
     verdicts_ = MotionVerdicts();
     return;
   }
+  MakeRoomForAStep();
   time_ns_ = time_ns;
   if (!filter_.started()) return;
   if (!(seconds > 0.0) || seconds > kLongestSilence_s) {
@@ -141,10 +142,18 @@ void EpochFilter::Move(std::int64_t time_ns) {
 
 void EpochFilter::Start(const Eigen::Vector3d& position_in_ecef,
                         const Eigen::Matrix3d& covariance_enu_m2) {
+  MakeRoomForAStep();
   filter_.Start(position_in_ecef, covariance_enu_m2);
   silent_s_ = kUsual_s;
   unexplained_s_ = 0.0;
   if (remembers_) steps_.push_back(filter_.step());
+}
+
+// Before anything changes: where memory runs out later, the steps are no longer those of the
+// filter.
+void EpochFilter::MakeRoomForAStep() {
+  if (!remembers_ || steps_.size() < steps_.capacity()) return;
+  steps_.reserve(2 * steps_.capacity() + 16);
 }
 
 std::optional<PositionStatement> EpochFilter::Place() const {

@@ -69,6 +69,7 @@ class EpochFilter {
   void Doubt(double likelier);
   void Move(std::int64_t time_ns);
   void Start(const Eigen::Vector3d& position_in_ecef, const Eigen::Matrix3d& covariance_enu_m2);
+  void MakeRoomForAStep();
   // Hears what an adjustment made of the present state, as strong as a share of it.
   void Hear(const PointEstimate& point, double share, bool ranged);
 
