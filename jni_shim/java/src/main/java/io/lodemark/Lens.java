@@ -14,6 +14,11 @@ public final class Lens {
   private static final int FISHEYE = 2;
   private static final int THIN_PRISM_FISHEYE = 3;
 
+  // Of the models above, in camera.json, and how many coefficients each has.
+  private static final String[] NAMES = {
+      "PINHOLE", "OPENCV", "OPENCV_FISHEYE", "THIN_PRISM_FISHEYE"};
+  private static final int[] COEFFICIENTS = {0, 14, 4, 8};
+
   private final ByteBuffer struct;
 
   private Lens(ByteBuffer struct) {
@@ -149,6 +154,26 @@ public final class Lens {
    */
   public double[] getIntrinsics() {
     return Struct.doubles(struct, Layout.Lens.FX_PX, 4 + Values.LENS_COEFFICIENTS);
+  }
+
+  /**
+   * The content of a camera.json, as the command lodemark reads it.
+   *
+   * @return text in JSON
+   */
+  public String toJson() {
+    int model = struct.getInt(Layout.Lens.MODEL);
+    double[] values = getIntrinsics();
+    StringBuilder json = new StringBuilder("{\n  \"model\": \"").append(NAMES[model]);
+    json.append("\",\n  \"width_px\": ").append(getWidthPixels());
+    json.append(",\n  \"height_px\": ").append(getHeightPixels());
+    String[] names = {"fx_px", "fy_px", "cx_px", "cy_px"};
+    for (int i = 0; i < names.length; ++i)
+      json.append(",\n  \"").append(names[i]).append("\": ").append(values[i]);
+    json.append(",\n  \"coefficients\": [");
+    for (int i = 0; i < COEFFICIENTS[model]; ++i)
+      json.append(i == 0 ? "" : ", ").append(values[names.length + i]);
+    return json.append("]\n}\n").toString();
   }
 
   ByteBuffer struct() {

@@ -24,10 +24,12 @@ public final class PositioningSession extends Handle {
   private ByteBuffer landmarks = Struct.of(Layout.Landmark.SIZE);
   private ByteBuffer events = Struct.of(Layout.Event.SIZE);
   private final int[] total = new int[1];
+  private final TimeBase timeBase;
   private FeatureMap map;
 
-  private PositioningSession(long address) {
+  private PositioningSession(long address, TimeBase timeBase) {
     super("session", address);
+    this.timeBase = timeBase;
   }
 
   /**
@@ -46,6 +48,15 @@ public final class PositioningSession extends Handle {
    */
   public static Builder builder() {
     return new Builder();
+  }
+
+  /**
+   * Which clock its times are of.
+   *
+   * @return as it was opened with
+   */
+  public TimeBase getTimeBase() {
+    return timeBase;
   }
 
   /**
@@ -527,7 +538,8 @@ public final class PositioningSession extends Handle {
     public PositioningSession open() {
       long[] out = new long[1];
       Native.check(Native.sessionOpen(options, out));
-      return new PositioningSession(out[0]);
+      TimeBase base = TimeBase.values()[options.getInt(Layout.SessionOptions.TIME_BASE)];
+      return new PositioningSession(out[0], base);
     }
 
     private Builder put(int at, int value) {

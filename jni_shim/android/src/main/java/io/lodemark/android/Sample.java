@@ -1,0 +1,24 @@
+package io.lodemark.android;
+
+/** A SensorEvent, whose own object the framework uses again. */
+final class Sample {
+  /** Three values and three biases of an uncalibrated sensor are the most. */
+  static final int VALUES = 6;
+
+  int sensorType;
+  long bootNanos;
+  int count;
+  final float[] values = new float[VALUES];
+
+  void set(int type, long timestamp, float[] from) {
+    sensorType = type;
+    bootNanos = timestamp;
+    count = Math.min(from.length, VALUES);
+    System.arraycopy(from, 0, values, 0, count);
+  }
+
+  void copy(Sample other) {
+    set(other.sensorType, other.bootNanos, other.values);
+    count = other.count;
+  }
+}

@@ -1,0 +1,149 @@
+package io.lodemark.android;
+
+import static org.junit.Assert.assertArrayEquals;
+import static org.junit.Assert.assertEquals;
+import static org.junit.Assert.assertFalse;
+import static org.junit.Assert.assertNull;
+import static org.junit.Assert.assertTrue;
+
+import android.graphics.ImageFormat;
+import android.graphics.Rect;
+import android.hardware.camera2.CameraCharacteristics;
+import android.hardware.camera2.CameraMetadata;
+import android.hardware.camera2.CaptureResult;
+import android.media.FakeImage;
+import android.media.Image;
+import io.lodemark.Lens;
+import java.nio.ByteBuffer;
+import org.junit.Test;
+import org.junit.runner.RunWith;
+import org.robolectric.RobolectricTestRunner;
+import org.robolectric.Shadows;
+import org.robolectric.annotation.Config;
+
+/** What is made of an Image and of what Android says of its camera. */
+@RunWith(RobolectricTestRunner.class)
+@Config(sdk = 34, manifest = Config.NONE)
+public class PhotoTest {
+  private static final CameraCharacteristics CAMERA = Phone.camera(true, true);
+
+  /** Two rows of three pixels 10 .. 15, with gaps of 99 between rows or pixels. */
+  private static Image image(int rowStride, int pixelStride, long timestamp) {
+    ByteBuffer bytes = ByteBuffer.allocateDirect(rowStride + 3 * pixelStride);
+    for (int i = 0; i < bytes.capacity(); ++i) bytes.put(i, (byte) 99);
+    for (int i = 0; i < 6; ++i) bytes.put(i / 3 * rowStride + i % 3 * pixelStride, (byte) (10 + i));
+    return new FakeImage(ImageFormat.YUV_420_888, 3, 2, timestamp, bytes, rowStride, pixelStride);
+  }
+
+  private static byte[] bytes(ByteBuffer buffer) {
+    byte[] bytes = new byte[buffer.remaining()];
+    buffer.duplicate().get(bytes);
+    return bytes;
+  }
+
+  @Test
+  public void lumaIsCopiedWithoutGaps() {
+    CaptureResult capture = Phone.capture(Phone.TAKEN);
+    for (Image image : new Image[] {
+             image(8, 1, Phone.TAKEN), image(3, 1, Phone.TAKEN), image(16, 2, Phone.TAKEN)}) {
+      assertNull(Photo.problem(image, capture, CAMERA));
+      Photo photo = Photo.copy(image, capture, CAMERA, null);
+      assertArrayEquals(new byte[] {10, 11, 12, 13, 14, 15}, bytes(photo.pixels));
+      assertTrue(photo.pixels.isDirect());
+    }
+  }
+
+  @Test
+  public void itsTimeIsTheMiddleOfTheExposureInTheMiddleRow() {
+    CaptureResult capture = Phone.capture(Phone.TAKEN);
+    Photo photo = Photo.copy(image(3, 1, Phone.TAKEN), capture, CAMERA, null);
+    assertEquals(Phone.TAKEN + Phone.EXPOSURE / 2 + Phone.SKEW / 2, photo.bootNanos);
+  }
+
+  @Test
+  public void aTimeThatIsNotSinceBootIsNotTrusted() {
+    String problem = Photo.problem(
+        image(3, 1, Phone.TAKEN), Phone.capture(Phone.TAKEN), Phone.camera(false, true));
+    assertTrue(problem, problem.contains("REALTIME"));
+    problem = Photo.problem(image(3, 1, Phone.TAKEN), Phone.capture(Phone.TAKEN + 1), CAMERA);
+    assertTrue(problem, problem.contains("TotalCaptureResult"));
+  }
+
+  @Test
+  public void otherFormatsAreRefused() {
+    Image raw = new FakeImage(
+        ImageFormat.RAW_SENSOR, 3, 2, Phone.TAKEN, ByteBuffer.allocateDirect(12), 6, 2);
+    String problem = Photo.problem(raw, Phone.capture(Phone.TAKEN), CAMERA);
+    assertTrue(problem, problem.contains("YUV_420_888"));
+  }
+
+  @Test
+  public void theLensIsScaledToThePhotograph() {
+    Lens lens = CameraLens.of(CAMERA, Phone.capture(Phone.TAKEN), 1000, 750);
+    double[] k = lens.getIntrinsics();
+    assertEquals(750.0, k[0], 1e-9);
+    assertEquals(752.5, k[1], 1e-9);
+    // The corner of the array is half a pixel from the centre of its first one.
+    assertEquals(2000.5 / 4 - 0.5, k[2], 1e-9);
+    assertEquals(1490.5 / 4 - 0.5, k[3], 1e-9);
+    // k1 k2 p1 p2 k3 of Android's k1 k2 k3 p1 p2.
+    assertArrayEquals(new double[] {0.1f, -0.2f, 0.001f, 0.002f, 0.03f},
+        new double[] {k[4], k[5], k[6], k[7], k[8]}, 0);
+  }
+
+  @Test
+  public void aWiderPhotographShowsTheMiddle() {
+    // 16:9 of 4:3: 4000 x 2250 in the middle, 375 rows cut above and below.
+    double[] k = CameraLens.of(CAMERA, Phone.capture(Phone.TAKEN), 1600, 900).getIntrinsics();
+    assertEquals(0.4 * 3000, k[0], 1e-9);
+    assertEquals(0.4 * 2000.5 - 0.5, k[2], 1e-9);
+    assertEquals(0.4 * (1490.5 - 375) - 0.5, k[3], 1e-9);
+  }
+
+  @Test
+  public void zoomIsACrop() {
+    CaptureResult capture = Phone.capture(Phone.TAKEN, new Rect(1000, 750, 3000, 2250));
+    double[] k = CameraLens.of(CAMERA, capture, 1000, 750).getIntrinsics();
+    assertEquals(0.5 * 3000, k[0], 1e-9);
+    assertEquals(0.5 * 1000.5 - 0.5, k[2], 1e-9);
+    assertEquals(0.5 * 740.5 - 0.5, k[3], 1e-9);
+  }
+
+  @Test
+  public void aCorrectedPhotographHasNoDistortion() {
+    CaptureResult capture = Phone.capture(Phone.TAKEN);
+    Shadows.shadowOf(capture).set(
+        CaptureResult.DISTORTION_CORRECTION_MODE, CameraMetadata.DISTORTION_CORRECTION_MODE_FAST);
+    double[] k = CameraLens.of(CAMERA, capture, 1000, 750).getIntrinsics();
+    assertEquals(750.0, k[0], 1e-9);
+    assertEquals(0.0, k[4], 0);
+  }
+
+  @Test
+  public void aCameraWithoutCalibrationHasItsFocalLength() {
+    CameraCharacteristics plain = Phone.camera(true, false);
+    CaptureResult capture = Phone.capture(Phone.TAKEN);
+    assertFalse(CameraLens.isCalibrated(plain, capture));
+    double[] k = CameraLens.of(plain, capture, 1000, 750).getIntrinsics();
+    assertEquals(4.8 / 6.4 * 1000, k[0], 1e-3);
+    assertEquals(499.5, k[2], 1e-9);
+  }
+
+  @Test
+  public void tiltTellsWhatIsUpInThePhotograph() {
+    Tilt tilt = new Tilt();
+    // Upright, screen to the user: turned by 90 degrees about x from lying on its back.
+    float half = (float) Math.sqrt(0.5);
+    tilt.add(1_000_000_000L, half, 0, 0, half);
+    // A sensor that is mounted upright has its rows downwards; one at 90 has its columns so.
+    assertArrayEquals(new double[] {0, -1, 0}, tilt.upInCamera(1_000_000_000L, 0, false), 1e-6);
+    assertArrayEquals(new double[] {-1, 0, 0}, tilt.upInCamera(1_000_000_000L, 90, false), 1e-6);
+    assertArrayEquals(new double[] {1, 0, 0}, tilt.upInCamera(1_000_000_000L, 270, false), 1e-6);
+    assertArrayEquals(new double[] {0, -1, 0}, tilt.upInCamera(1_000_000_000L, 0, true), 1e-6);
+    // Flat on a table, the screen up: the camera in the back looks down.
+    tilt.add(2_000_000_000L, 0, 0, 0, 1);
+    assertArrayEquals(new double[] {0, 0, -1}, tilt.upInCamera(2_000_000_000L, 90, false), 1e-6);
+    assertArrayEquals(new double[] {0, 0, 1}, tilt.upInCamera(2_000_000_000L, 90, true), 1e-6);
+    assertNull(tilt.upInCamera(3_000_000_000L, 90, false));
+  }
+}
