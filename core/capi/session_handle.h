@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "core/gnss/android_measurement.h"
 #include "core/gnss/observation.h"
@@ -10,7 +11,8 @@
 
 struct lodemark_session {
   std::unique_ptr<lodemark::Session> engine;
-  // Memory for translating one epoch, kept so that pushing allocates nothing after the first ones.
+  // Memory for translating one call, kept so that pushing allocates nothing after the first ones.
   lodemark::AndroidEpoch android_epoch;
   lodemark::ObservationEpoch observation_epoch;
+  std::vector<lodemark::SensorSample> sensor_samples;
 };

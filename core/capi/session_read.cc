@@ -59,6 +59,7 @@ static_assert(LODEMARK_EVENT_EPHEMERIS_MISSING == static_cast<int>(EventKind::kE
 static_assert(LODEMARK_EVENT_PHOTO_CONTRADICTED == static_cast<int>(EventKind::kPhotoContradicted));
 static_assert(LODEMARK_EVENT_PHOTO_FAILED == static_cast<int>(EventKind::kPhotoFailed));
 static_assert(LODEMARK_EVENT_MAP_DATUM == static_cast<int>(EventKind::kMapDatum));
+static_assert(LODEMARK_EVENT_SENSOR_DROPPED == static_cast<int>(EventKind::kSensorDropped));
 
 static_assert(LODEMARK_PHOTO_NONE == static_cast<int>(PhotoOutcome::kNone));
 static_assert(LODEMARK_PHOTO_USED == static_cast<int>(PhotoOutcome::kUsed));

@@ -61,6 +61,8 @@ template <>
 inline constexpr std::uint32_t kFirstSize<lodemark_frame> = 64;
 template <>
 inline constexpr std::uint32_t kFirstSize<lodemark_landmark> = 96;
+template <>
+inline constexpr std::uint32_t kFirstSize<lodemark_sensor_sample> = 40;
 
 // Far above the size of any struct that a later version may have: a larger one is a wild number.
 inline constexpr std::uint32_t kLargestSize = 65'536;

@@ -43,6 +43,20 @@ const char* WordOf(EstimateStatus status) {
   return "no measurements";
 }
 
+const char* WordOf(SensorKind kind) {
+  switch (kind) {
+    case SensorKind::kAccelerometer:
+      return "accelerometer";
+    case SensorKind::kGyroscope:
+      return "gyroscope";
+    case SensorKind::kBarometer:
+      return "barometer";
+    case SensorKind::kVehicle:
+      break;
+  }
+  return "vehicle";
+}
+
 }  // namespace
 
 void EventLog::SetTime(std::int64_t time_ns, std::int64_t time_gps_ns) {
@@ -113,6 +127,17 @@ void EventLog::NotePhotoFailed(const std::string& reason) {
   if (reason == last_failure_) return;
   last_failure_ = reason;
   Add(EventKind::kPhotoFailed, 0.0, "a photograph could not be looked up: " + reason);
+}
+
+void EventLog::NoteSensorDropped(const SensorSample& sample) {
+  const auto kind = static_cast<std::size_t>(sample.kind);
+  if (dropped_before_.test(kind)) return;
+  dropped_before_.set(kind);
+  Add(EventKind::kSensorDropped, static_cast<double>(kind) + 1.0,
+      std::string("a sample of the ") + WordOf(sample.kind) +
+          " is not later than the one before; it and others like it are dropped");
+  events_.back().time_ns = sample.time_ns;
+  events_.back().time_gps_ns = 0;
 }
 
 void EventLog::NoteEphemerisMissing(const SatelliteStatus& satellite) {

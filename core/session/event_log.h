@@ -35,6 +35,9 @@ class EventLog {
   void NotePhoto(const SessionEstimate& estimate);
   void NotePhotoFailed(const std::string& reason);
   void NoteMapDatum(const std::string& remark);
+  // At most one event per sensor, at the sample's own time; its value is the number of the kind
+  // from 1.
+  void NoteSensorDropped(const SensorSample& sample);
 
   std::span<const SessionEvent> events() const { return events_; }
   void Clear() { events_.clear(); }
@@ -50,6 +53,7 @@ class EventLog {
   bool ever_fixed_ = false;
   bool contradicted_before_ = false;
   std::string last_failure_;
+  std::bitset<kSensorKindCount> dropped_before_;
   std::array<std::bitset<256>, kSystemCount> without_ephemeris_;
   std::vector<SessionEvent> events_;
 };

@@ -16,9 +16,12 @@ class SampleWindow {
  public:
   explicit SampleWindow(std::size_t capacity) : capacity_(capacity) {}
 
+  // Takes the memory, once.
+  void Prepare() { samples_.reserve(2 * capacity_); }
+
   // The sample is later than the newest. Spans that were handed out end here.
   void Push(const Sample& sample) {
-    if (samples_.empty()) samples_.reserve(2 * capacity_);
+    if (samples_.empty()) Prepare();
     if (count() == capacity_) ++first_;
     if (samples_.size() == 2 * capacity_) {
       samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(first_));

@@ -62,6 +62,19 @@ SensorBuffer::Place SensorBuffer::Judge(std::int64_t time_ns, Order* order) {
   return Place::kNext;
 }
 
+void SensorBuffer::Prepare(SensorKind kind) {
+  switch (kind) {
+    case SensorKind::kAccelerometer:
+      return forces_.Prepare();
+    case SensorKind::kGyroscope:
+      return turn_rates_.Prepare();
+    case SensorKind::kBarometer:
+      return pressures_.Prepare();
+    case SensorKind::kVehicle:
+      return vehicle_.Prepare();
+  }
+}
+
 bool SensorBuffer::Push(const SensorSample& sample) {
   const Place place = Judge(sample.time_ns, &orders_[static_cast<std::size_t>(sample.kind)]);
   if (place == Place::kDropped) return false;

@@ -57,6 +57,8 @@ class SensorBuffer {
 
   SensorBuffer();
 
+  // Takes the memory for samples of the kind, so that pushing takes none.
+  void Prepare(SensorKind kind);
   // False if the sample is not later than the one before of its sensor: it is dropped.
   bool Push(const SensorSample& sample);
 

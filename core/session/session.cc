@@ -42,7 +42,7 @@ bool NamesChannels(const AndroidEpoch& epoch) {
 
 struct Session::Impl {
   explicit Impl(const SessionOptions& session_options)
-      : options(session_options), solver(session_options), photos(session_options) {}
+      : options(session_options), solver(session_options, &sensors), photos(session_options) {}
 
   struct QueuedEpoch {
     std::int64_t time_ns = 0;
@@ -87,6 +87,7 @@ struct Session::Impl {
   std::vector<SatelliteStatus> statuses;
   PhotoFusion photos;
   std::vector<LandmarkStatus> landmarks;
+  SensorBuffer sensors;
   EventLog events;
   SmoothedWay way;
 };
@@ -199,6 +200,15 @@ Status Session::PushNavigationMessage(std::int32_t type, std::int32_t svid, std:
 Status Session::UseMap(const FeatureMap* map) { return impl_->photos.UseMap(map); }
 
 Status Session::PushFrame(const CameraFrame& frame) { return impl_->photos.Push(frame); }
+
+Status Session::PushSensors(std::span<const SensorSample> samples) {
+  // What can fail comes first.
+  for (const SensorSample& sample : samples) impl_->sensors.Prepare(sample.kind);
+  for (const SensorSample& sample : samples) {
+    if (!impl_->sensors.Push(sample)) impl_->events.NoteSensorDropped(sample);
+  }
+  return {};
+}
 
 bool Session::ProcessNext() {
   Impl& s = *impl_;
@@ -323,6 +333,7 @@ void Session::Reset() {
   s.statuses.clear();
   s.photos.Forget();
   s.landmarks.clear();
+  s.sensors.Forget();
   s.events.Reset();
   s.way.Forget();
 }

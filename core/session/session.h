@@ -21,6 +21,7 @@
 #include "core/gnss/precise_orbits.h"
 #include "core/map/feature_map.h"
 #include "core/resection/sights.h"
+#include "core/session/sensor_buffer.h"
 
 namespace lodemark {
 
@@ -213,6 +214,7 @@ enum class EventKind : std::uint8_t {
   kPhotoContradicted,  // satellites prove a photograph to be of another place
   kPhotoFailed,        // a photograph could not be looked up: the text says why
   kMapDatum,           // the map's datum is another than the fix's, or not known
+  kSensorDropped,      // samples not later than the one before, told once for each sensor
 };
 
 struct SessionEvent {
@@ -246,6 +248,9 @@ class Session {
   // Copies the image. Fails with kQueueFull when Process must be called first: few photographs may
   // wait. kOutOfOrder without a map.
   Status PushFrame(const CameraFrame& frame);
+  // Takes samples of any sensors; those of one sensor in the order of their times, or they are
+  // dropped. The values are finite.
+  Status PushSensors(std::span<const SensorSample> samples);
 
   // Takes the oldest of what is queued, epoch or photograph, and turns it into an estimate at its
   // time. True if there was one, even if it was dropped for its time: then the estimate has that

@@ -36,7 +36,7 @@ class Sequence {
 
  private:
   void Step(std::uint8_t call) {
-    switch (call % 16) {
+    switch (call % 17) {
       case 0:
         return Open();
       case 1:
@@ -72,6 +72,8 @@ class Sequence {
         return Convert();
       case 14:
         return ConvertTime();
+      case 16:
+        return PushSensors();
       default:
         // The clock goes on, or jumps.
         time_gps_ns_ += bytes_.Take<std::int32_t>() * std::int64_t{1'000'000};
@@ -143,6 +145,22 @@ class Sequence {
     Seen(lodemark_session_push_observations(session_, bytes_.Take<std::int64_t>(), &epoch,
                                             observations.data(),
                                             static_cast<std::int32_t>(observations.size())));
+  }
+
+  void PushSensors() {
+    std::vector<lodemark_sensor_sample> samples(bytes_.Take<std::uint8_t>() % 64u);
+    for (lodemark_sensor_sample& sample : samples) {
+      sample = Sized<lodemark_sensor_sample>();
+      sample.sensor = 1 + bytes_.Take<std::uint8_t>() % 4;
+      sample.time_ns = time_gps_ns_ + bytes_.Take<std::int32_t>();
+      const int values = sample.sensor == LODEMARK_SENSOR_BAROMETER ? 1
+                         : sample.sensor == LODEMARK_SENSOR_VEHICLE ? 2
+                                                                    : 3;
+      for (int i = 0; i < values; ++i) sample.value[i] = 0.1 * bytes_.Take<std::int16_t>();
+    }
+    if (!samples.empty()) Disturb(&bytes_, &samples[0]);
+    Seen(lodemark_session_push_sensors(session_, samples.data(),
+                                       static_cast<std::int32_t>(samples.size())));
   }
 
   void PushBroadcast() {
@@ -221,7 +239,7 @@ class Sequence {
     Require(count >= 0 && count <= 256);
     for (std::size_t i = 0; i < events.size() && status == LODEMARK_OK; ++i) {
       if (i >= static_cast<std::size_t>(count)) break;
-      Require(events[i].kind >= 0 && events[i].kind <= LODEMARK_EVENT_EPHEMERIS_MISSING);
+      Require(events[i].kind >= 0 && events[i].kind <= LODEMARK_EVENT_SENSOR_DROPPED);
       Require(std::memchr(events[i].text, 0, sizeof events[i].text) != nullptr);
       Require(std::isfinite(events[i].value));
     }

@@ -32,8 +32,8 @@ static_assert(std::size(kOutcomeWords) == LODEMARK_OUTCOME_AMBIGUOUS + 1);
 constexpr const char* kEventWords[] = {
     "clock_discontinuity", "millisecond_jump", "time_backwards",    "duplicate_epoch",
     "first_fix",           "fix_lost",         "ephemeris_missing", "photo_contradicted",
-    "photo_failed",        "map_datum"};
-static_assert(std::size(kEventWords) == LODEMARK_EVENT_MAP_DATUM + 1);
+    "photo_failed",        "map_datum",        "sensor_dropped"};
+static_assert(std::size(kEventWords) == LODEMARK_EVENT_SENSOR_DROPPED + 1);
 
 template <std::size_t kCount>
 const char* WordOf(const char* const (&words)[kCount], std::int32_t value) {

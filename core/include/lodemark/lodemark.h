@@ -742,6 +742,34 @@ LODEMARK_API lodemark_status lodemark_session_push_image(lodemark_session* sessi
                                                          const uint8_t* pixels,
                                                          int64_t stride_bytes);
 
+#define LODEMARK_SENSOR_ACCELEROMETER 1 /* specific force, m/s2: at rest 9.8 upwards */
+#define LODEMARK_SENSOR_GYROSCOPE 2     /* turn rate, rad/s, right-handed about the same axes */
+#define LODEMARK_SENSOR_BAROMETER 3     /* value[0]: pressure, hPa */
+#define LODEMARK_SENSOR_VEHICLE 4 /* value[0]: forward speed, m/s; [1]: yaw rate, rad/s, left + */
+
+/* What a sensor measured at one moment. */
+typedef struct lodemark_sensor_sample {
+  uint32_t struct_size;
+  int32_t sensor;  /* LODEMARK_SENSOR_... */
+  int64_t time_ns; /* in the session's base */
+  double value[3]; /* those that the sensor does not have are zero */
+} lodemark_sensor_sample;
+
+/*
+ * Takes samples of any sensors, those of one sensor in the order of their times; at once, they need
+ * no process. A sample not later than the one before of its sensor is dropped, and an event tells
+ * of the first; where such samples go on for over a second, the sensor's clock was set back, and it
+ * begins anew. Push what was measured before an epoch, and the first samples after it, before the
+ * epoch is processed: later it is not heard. A session remembers the last 8192 samples of either
+ * inertial sensor, 2048 of the barometer and 4096 of the vehicle.
+ *
+ * LODEMARK_ESTIMATOR_FILTER and LODEMARK_ESTIMATOR_SMOOTHER use them, and photographs are levelled
+ * by them; LODEMARK_ERROR_INVALID_ARGUMENT for numbers that no sensor gives, naming the sample.
+ */
+LODEMARK_API lodemark_status lodemark_session_push_sensors(lodemark_session* session,
+                                                           const lodemark_sensor_sample* samples,
+                                                           int32_t count);
+
 /*
  * Turns the oldest of what waits, epoch or photograph, into an estimate at its time: an epoch with
  * the latest photograph, a photograph with the latest epoch, where they are within 1.5 s. What the
@@ -916,6 +944,7 @@ LODEMARK_API lodemark_status lodemark_session_landmarks(const lodemark_session* 
 #define LODEMARK_EVENT_PHOTO_CONTRADICTED 7 /* by satellites: it is of another place */
 #define LODEMARK_EVENT_PHOTO_FAILED 8       /* it could not be looked up; the text says why */
 #define LODEMARK_EVENT_MAP_DATUM 9          /* the map was moved to where satellites put it */
+#define LODEMARK_EVENT_SENSOR_DROPPED 10    /* samples that came late; value: LODEMARK_SENSOR_... */
 
 /* Something that happened in between. */
 typedef struct lodemark_event {

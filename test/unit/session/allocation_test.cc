@@ -148,5 +148,23 @@ TEST(SessionAllocation, RawEpochsAllocateNothingInTheSteadyState) {
       0);
 }
 
+TEST(SessionAllocation, SensorSamplesAllocateNothingAfterTheFirst) {
+  const SessionScene scene;
+  const std::unique_ptr<Session> session = scene.Open();
+  std::vector<SensorSample> samples;
+  for (std::size_t kind = 0; kind < kSensorKindCount; ++kind) {
+    samples.push_back({static_cast<SensorKind>(kind), 0, Eigen::Vector3d(1.0, 0.0, 0.0)});
+  }
+  ASSERT_TRUE(session->PushSensors(samples).ok());
+  const std::int64_t before = allocations;
+  bool taken = true;
+  for (std::int64_t time_ns = 1; time_ns < 50'000; ++time_ns) {
+    for (SensorSample& sample : samples) sample.time_ns = time_ns;
+    taken = session->PushSensors(samples).ok() && taken;
+  }
+  EXPECT_TRUE(taken);
+  EXPECT_EQ(allocations - before, 0);
+}
+
 }  // namespace
 }  // namespace lodemark::test
