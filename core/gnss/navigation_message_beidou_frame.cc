@@ -22,24 +22,33 @@ bool PassesBch(std::uint32_t code) {
   return (code & 0xF) == 0;
 }
 
-// Word 1: fifteen bits without a code, then one codeword. The others: two codewords, bit by bit in
-// turn.
+// Word 1: fifteen bits without a code, then one codeword. The others hold two codewords of eleven
+// data and four parity bits.
 bool PassesParity(std::uint32_t word, bool first) {
   if (first) return PassesBch(word & 0x7FFF);
-  std::uint32_t even = 0;
-  std::uint32_t odd = 0;
-  for (int bit = kWordBits - 1; bit > 0; bit -= 2) {
-    even = even << 1 | (word >> bit & 1);
-    odd = odd << 1 | (word >> (bit - 1) & 1);
-  }
-  return PassesBch(even) && PassesBch(odd);
+  return PassesBch((word >> 19 & 0x7FF) << 4 | (word >> 4 & 0xF)) &&
+         PassesBch((word >> 8 & 0x7FF) << 4 | (word & 0xF));
 }
 
+// Words other than the first are sent with the bits of their two codewords in turn (5.1.3).
+// Gives the data of the first, those of the second, then the parities in the same order.
+std::uint32_t Deinterleaved(std::uint32_t sent) {
+  std::uint32_t codes[2] = {};
+  for (unsigned bit = kWordBits; bit-- > 0;) {
+    std::uint32_t& code = codes[bit % 2 == 1 ? 0 : 1];
+    code = code << 1 | (sent >> bit & 1);
+  }
+  return codes[0] >> 4 << 19 | codes[1] >> 4 << 8 | (codes[0] & 0xF) << 4 | (codes[1] & 0xF);
+}
+
+enum class BitOrder { kDeinterleaved, kAsSent };
+
 // Empty if the BCH code of any word finds an error. bytes: all ten words.
-std::optional<BeidouSubframe> WithoutGaps(std::span<const std::uint8_t> bytes) {
+std::optional<BeidouSubframe> WithoutGaps(std::span<const std::uint8_t> bytes, BitOrder order) {
   BeidouSubframe subframe = {};
   for (std::size_t i = 0; i < kWords; ++i) {
-    const auto word = static_cast<std::uint32_t>(UnsignedBits(bytes, 32 * i + 2, kWordBits));
+    auto word = static_cast<std::uint32_t>(UnsignedBits(bytes, 32 * i + 2, kWordBits));
+    if (i > 0 && order == BitOrder::kAsSent) word = Deinterleaved(word);
     if (!PassesParity(word, i == 0)) return std::nullopt;
     for (std::size_t bit = 0; bit < kWordBits; ++bit) {
       const std::size_t at = kWordBits * i + bit;
@@ -54,7 +63,8 @@ std::optional<BeidouSubframe> WithoutGaps(std::span<const std::uint8_t> bytes) {
 
 MessageVerdict ReadBeidouSubframe(std::span<const std::uint8_t> bytes, BeidouSubframe* subframe) {
   if (bytes.size() < 4 * kWords) return MessageVerdict::kMalformed;
-  const std::optional<BeidouSubframe> read = WithoutGaps(bytes);
+  std::optional<BeidouSubframe> read = WithoutGaps(bytes, BitOrder::kDeinterleaved);
+  if (!read) read = WithoutGaps(bytes, BitOrder::kAsSent);
   if (!read) return MessageVerdict::kBadParity;
   const std::uint64_t number = BeidouSubframeNumber(*read);
   if (UnsignedBits(*read, 0, 11) != kPreamble || number < 1 || number > 5 ||

@@ -15,7 +15,8 @@ namespace lodemark {
 // The 300 bits of a subframe, parity included, whose fields the ICD numbers from 1.
 using BeidouSubframe = std::array<std::uint8_t, 38>;
 
-// From ten words of 30 bits, each right-aligned in four bytes. kTaken if the code of every word is
+// From ten words of 30 bits, each right-aligned in four bytes, deinterleaved as receivers give them
+// or as they were sent. kTaken if the code of every word is
 // good and the subframe begins as it must; else why not, and *subframe is untouched.
 MessageVerdict ReadBeidouSubframe(std::span<const std::uint8_t> bytes, BeidouSubframe* subframe);
 

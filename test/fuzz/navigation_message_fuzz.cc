@@ -92,17 +92,7 @@ void FixBeidou(std::vector<std::uint8_t>* bytes) {
     if (word == 0) {
       bits = (bits & ~0xFu) | Bch(bits >> 4 & 0x7FF);
     } else {
-      std::uint32_t parts[2] = {};
-      for (int bit = 29; bit >= 8; --bit) {
-        auto& part = parts[bit % 2];
-        part = part << 1 | (bits >> bit & 1);
-      }
-      const std::uint32_t odd = Bch(parts[1]);
-      const std::uint32_t even = Bch(parts[0]);
-      bits &= ~0xFFu;
-      for (int i = 0; i < 4; ++i) {
-        bits |= (odd >> (3 - i) & 1) << (7 - 2 * i) | (even >> (3 - i) & 1) << (6 - 2 * i);
-      }
+      bits = (bits & ~0xFFu) | Bch(bits >> 19 & 0x7FF) << 4 | Bch(bits >> 8 & 0x7FF);
     }
     for (std::size_t i = 0; i < 4; ++i) {
       (*bytes)[word + i] = static_cast<std::uint8_t>(bits >> (24 - 8 * i));

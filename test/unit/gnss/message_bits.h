@@ -53,22 +53,37 @@ inline std::int64_t Bch(std::int64_t data) {
   return rest;
 }
 
-inline Bytes BeidouBytes(Bits s) {
-  const auto take = [&](std::size_t first, std::size_t step) {
+// Words other than the first have eleven data bits, eleven more, and the parities of either.
+inline Bits WithBeidouParity(Bits s) {
+  const auto take = [&](std::size_t first) {
     std::int64_t value = 0;
-    for (std::size_t i = 0; i < 11; ++i) value = value << 1 | (s[first + step * i] ? 1 : 0);
+    for (std::size_t i = 0; i < 11; ++i) value = value << 1 | (s[first + i] ? 1 : 0);
     return value;
   };
-  s.Set(27, 4, Bch(take(16, 1)));
+  s.Set(27, 4, Bch(take(16)));
   for (std::size_t word = 30; word < 300; word += 30) {
-    const std::int64_t odd = Bch(take(word + 1, 2));
-    const std::int64_t even = Bch(take(word + 2, 2));
-    for (std::size_t i = 0; i < 4; ++i) {
-      s.Set(word + 23 + 2 * i, 1, odd >> (3 - i));
-      s.Set(word + 24 + 2 * i, 1, even >> (3 - i));
+    s.Set(word + 23, 4, Bch(take(word + 1)));
+    s.Set(word + 27, 4, Bch(take(word + 12)));
+  }
+  return s;
+}
+
+inline Bytes BeidouBytes(const Bits& s) { return WithBeidouParity(s).ToWords(); }
+
+// As satellites send it: the bits of both codewords of a word in turn.
+inline Bytes BeidouBytesAsSent(const Bits& s) {
+  const Bits from = WithBeidouParity(s);
+  Bits to = from;
+  for (std::size_t word = 30; word < 300; word += 30) {
+    for (std::size_t i = 0; i < 15; ++i) {
+      const bool parity = i >= 11;
+      const std::size_t first = parity ? 23 + (i - 11) : 1 + i;
+      const std::size_t second = parity ? 27 + (i - 11) : 12 + i;
+      to.Set(word + 1 + 2 * i, 1, from[word + first] ? 1 : 0);
+      to.Set(word + 2 + 2 * i, 1, from[word + second] ? 1 : 0);
     }
   }
-  return s.ToWords();
+  return to.ToWords();
 }
 
 }  // namespace lodemark::test

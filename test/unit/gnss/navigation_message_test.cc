@@ -16,6 +16,7 @@ namespace lodemark {
 namespace {
 
 using test::BeidouBytes;
+using test::BeidouBytesAsSent;
 using test::Bits;
 using test::Bytes;
 
@@ -639,6 +640,23 @@ TEST(NavigationMessageDecoder, PutsBeidouSubframesTogether) {
   const auto& ionosphere = std::get<IonosphereMessage>(push.records[1]);
   EXPECT_EQ(std::get<KlobucharParameters>(ionosphere.model).alpha[0], std::ldexp(10.0, -30));
   EXPECT_EQ(std::get<KlobucharParameters>(ionosphere.model).beta[3], -113 * 65'536.0);
+}
+
+TEST(NavigationMessageDecoder, TakesBeidouSubframesAsTheyAreSent) {
+  Push deinterleaved;
+  Push as_sent;
+  for (const Bits& s : BeidouSubframes()) {
+    deinterleaved(kBeidou, 12, BeidouBytes(s), kPerth_ns);
+    EXPECT_NE(BeidouBytesAsSent(s), BeidouBytes(s));
+    EXPECT_EQ(as_sent(kBeidou, 12, BeidouBytesAsSent(s), kPerth_ns), MessageVerdict::kTaken);
+  }
+  ASSERT_EQ(deinterleaved.records.size(), 2u);
+  ASSERT_EQ(as_sent.records.size(), 2u);
+  const auto& a = std::get<KeplerEphemeris>(deinterleaved.records[0]);
+  const auto& b = std::get<KeplerEphemeris>(as_sent.records[0]);
+  EXPECT_EQ(a.toe_gps_ns, b.toe_gps_ns);
+  EXPECT_EQ(a.mean_anomaly_rad, b.mean_anomaly_rad);
+  EXPECT_EQ(a.semi_major_axis_m, b.semi_major_axis_m);
 }
 
 TEST(NavigationMessageDecoder, BeidouSubframesMustFollowEachOther) {
