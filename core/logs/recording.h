@@ -41,6 +41,8 @@ struct Recording {
   std::map<std::string, std::vector<std::string>, std::less<>> files;
   std::optional<Eigen::Vector3d> static_in_ecef;  // metres, of a receiver at rest
   std::optional<Eigen::Vector3d> base_in_ecef;
+  // Of tables without a header line: role ("imu", "odometry") to the header that they lack.
+  std::map<std::string, std::string, std::less<>> columns;
   // What of the manifest could not be used, one sentence each.
   std::vector<std::string> problems;
 

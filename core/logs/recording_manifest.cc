@@ -16,6 +16,8 @@ constexpr int kDeepest = 16;  // a manifest needs 3
 constexpr std::size_t kMostFiles = 1000;
 constexpr std::size_t kMostProblems = 20;
 constexpr std::size_t kLongestText = 200;
+constexpr std::size_t kMostColumnLists = 16;
+constexpr std::size_t kLongestHeader = 2000;
 
 // Geosynchronous height, so that a satellite's place would pass and a unit error would not.
 constexpr double kFarthest_m = 5e7;
@@ -48,6 +50,17 @@ std::optional<Eigen::Vector3d> PositionOf(const Json& object, const char* key) {
   }
   const bool plausible = position.allFinite() && position.norm() < kFarthest_m;
   return plausible ? std::optional(position) : std::nullopt;
+}
+
+void ReadColumns(const Json& manifest, Recording* recording) {
+  const auto columns = manifest.find("columns");
+  if (columns == manifest.end() || !columns->is_object()) return;
+  for (const auto& [role, value] : columns->items()) {
+    if (recording->columns.size() == kMostColumnLists) return;
+    if (const auto* header = value.get_ptr<const std::string*>()) {
+      recording->columns[Plain(role)] = header->substr(0, kLongestHeader);
+    }
+  }
 }
 
 class FileList {
@@ -138,6 +151,7 @@ Status ReadManifest(const std::string& path, std::string_view text, Recording* r
   recording->device = TextOf(manifest, "device");
   recording->static_in_ecef = PositionOf(manifest, "static_ecef_m");
   recording->base_in_ecef = PositionOf(manifest, "base_ecef_m");
+  ReadColumns(manifest, recording);
   FileList list(path, recording);
   for (const auto& [role, value] : files->items()) list.Add(role, value);
   return Status();

@@ -55,8 +55,9 @@ TEST_F(RecordingFolder, FollowsItsManifest) {
   const std::string glonass = Write("glonass.23g", "x");
   Write("manifest.json",
         R"({"name": "walk_1", "device": "Some Phone", "base_ecef_m": [4157177.5, 671230, 4774767],
-            "files": {"gnss_log": "log.txt", "navigation": ["nav/gps.23n", "glonass.23g"]}})");
-  const auto recording = OpenRecording(folder_.string());
+            "files": {"gnss_log": "log.txt", "navigation": ["nav/gps.23n", "glonass.23g"]},
+            "columns": {"imu": "time_s,accel_x_g", "odometry": 5}})");
+  auto recording = OpenRecording(folder_.string());
   ASSERT_TRUE(recording.ok()) << recording.error().message;
   EXPECT_TRUE(recording->has_manifest);
   EXPECT_EQ(recording->name, "walk_1");
@@ -68,6 +69,8 @@ TEST_F(RecordingFolder, FollowsItsManifest) {
   EXPECT_EQ(recording->base_in_ecef, Eigen::Vector3d(4157177.5, 671230.0, 4774767.0));
   EXPECT_EQ(recording->static_in_ecef, std::nullopt);
   EXPECT_THAT(recording->problems, IsEmpty());
+  EXPECT_EQ(recording->columns.size(), 1U);
+  EXPECT_EQ(recording->columns["imu"], "time_s,accel_x_g");
 }
 
 TEST_F(RecordingFolder, ReadsNothingOutsideAndNothingThatIsNotThere) {
