@@ -103,7 +103,7 @@ Result<Recording> OpenRecording(const std::string& folder) {
     return Error{ErrorCode::kBadData,
                  folder +
                      ": has no file of a known kind; a recording needs a GnssLogger text, a "
-                     "RINEX observation file or a Kaggle csv"};
+                     "RINEX observation file, a u-blox file or a Kaggle csv"};
   }
   return recording;
 }

@@ -1,9 +1,10 @@
-// What a file is, told from its first lines.
+// What a file is, told from its first lines or messages.
 #include <algorithm>
 
 #include "core/logs/line_reader.h"
 #include "core/logs/parse_number.h"
 #include "core/logs/recording.h"
+#include "core/logs/ubx_frames.h"
 
 namespace lodemark {
 namespace {
@@ -92,7 +93,7 @@ Result<FileKind> SniffFile(const std::string& path) {
     }
     if (IsGnssLogLine(line)) return FileKind::kGnssLog;
   }
-  return FileKind::kUnknown;
+  return BeginsLikeUbx(path) ? FileKind::kUbx : FileKind::kUnknown;
 }
 
 std::string_view RoleOf(FileKind kind) {
@@ -111,6 +112,8 @@ std::string_view RoleOf(FileKind kind) {
       return "derived";
     case FileKind::kTrajectory:
       return "trajectory";
+    case FileKind::kUbx:
+      return "receiver_raw";
     case FileKind::kUnknown:
       break;
   }

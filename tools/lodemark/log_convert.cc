@@ -1,5 +1,5 @@
-// lodemark log convert: GnssLogger text and RINEX of any version to RINEX 3.04. The satellites'
-// messages that a log holds become a navigation file beside the observations.
+// lodemark log convert: GnssLogger text, u-blox files and RINEX of any version to RINEX 3.04. The
+// satellites' messages that a log holds become a navigation file beside the observations.
 #include <algorithm>
 #include <ctime>
 #include <filesystem>
@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "core/gnss/android_observables.h"
-#include "core/gnss/navigation_message.h"
 #include "core/logs/gnss_logger.h"
 #include "core/logs/recording.h"
 #include "core/logs/rinex_navigation.h"
 #include "core/logs/rinex_navigation_writer.h"
 #include "core/logs/rinex_observation.h"
 #include "core/logs/rinex_observation_writer.h"
+#include "core/logs/ubx.h"
+#include "tools/lodemark/broadcast_messages.h"
 #include "tools/lodemark/command.h"
 #include "tools/lodemark/log_commands.h"
 #include "tools/lodemark/output_file.h"
@@ -60,9 +61,6 @@ class EpochSource {
   virtual std::span<const NavigationRecord> navigation() const { return {}; }
 };
 
-// Messages that wait for the first epoch with a GPS time; a phone gets one or two in a second.
-constexpr std::size_t kMostWaitingMessages = 10'000;
-
 class LoggerSource : public EpochSource {
  public:
   explicit LoggerSource(GnssLoggerReader reader) : reader_(std::move(reader)) {}
@@ -70,17 +68,16 @@ class LoggerSource : public EpochSource {
   bool Next(ObservationEpoch* epoch) override {
     while (reader_.Next(&record_)) {
       const auto* message = std::get_if<LoggedNavigationMessage>(&record_);
-      if (message != nullptr && waiting_.size() < kMostWaitingMessages) {
-        waiting_.push_back(*message);
-      }
+      if (message != nullptr) messages_.Add(*message);
       const auto* raw = std::get_if<AndroidEpoch>(&record_);
       if (raw == nullptr || !observables_.Convert(*raw, epoch, &outcomes_)) continue;
-      Decode(epoch->time_gps_ns);
+      messages_.Add(*epoch);
       return true;
     }
+    messages_.Finish();
     return false;
   }
-  std::span<const NavigationRecord> navigation() const override { return navigation_; }
+  std::span<const NavigationRecord> navigation() const override { return messages_.records(); }
   Status status() const override { return reader_.status(); }
   double progress() const override { return reader_.progress(); }
   RinexObservationHeader header() const override {
@@ -91,21 +88,44 @@ class LoggerSource : public EpochSource {
   }
 
  private:
-  // Messages are as old as the epoch after them, to a second or two.
-  void Decode(std::int64_t received_gps_ns) {
-    for (const LoggedNavigationMessage& message : waiting_) {
-      decoder_.Push(message.type, message.svid, message.bytes, received_gps_ns, &navigation_);
-    }
-    waiting_.clear();
-  }
-
   GnssLoggerReader reader_;
   AndroidObservables observables_;
-  NavigationMessageDecoder decoder_;
-  std::vector<LoggedNavigationMessage> waiting_;
-  std::vector<NavigationRecord> navigation_;
+  BroadcastMessages messages_;
   GnssLoggerRecord record_;
   std::vector<RawOutcome> outcomes_;
+};
+
+class UbxSource : public EpochSource {
+ public:
+  explicit UbxSource(UbxReader reader) : reader_(std::move(reader)) {}
+
+  bool Next(ObservationEpoch* epoch) override {
+    while (reader_.Next(&record_)) {
+      if (const auto* message = std::get_if<LoggedNavigationMessage>(&record_)) {
+        messages_.Add(*message);
+      } else if (const auto* read = std::get_if<ObservationEpoch>(&record_)) {
+        messages_.Add(*read);
+        *epoch = *read;
+        return true;
+      }
+    }
+    messages_.Finish();
+    return false;
+  }
+  std::span<const NavigationRecord> navigation() const override { return messages_.records(); }
+  Status status() const override { return reader_.status(); }
+  double progress() const override { return reader_.progress(); }
+  RinexObservationHeader header() const override {
+    RinexObservationHeader header;
+    header.mixed = true;
+    header.receiver = "u-blox";
+    return header;
+  }
+
+ private:
+  UbxReader reader_;
+  BroadcastMessages messages_;
+  UbxRecord record_;
 };
 
 class RinexSource : public EpochSource {
@@ -126,6 +146,11 @@ Result<std::unique_ptr<EpochSource>> OpenSource(const std::string& path, FileKin
     Result<GnssLoggerReader> reader = GnssLoggerReader::Open(path);
     if (!reader) return reader.error();
     return std::unique_ptr<EpochSource>(std::make_unique<LoggerSource>(std::move(reader).value()));
+  }
+  if (kind == FileKind::kUbx) {
+    Result<UbxReader> reader = UbxReader::Open(path);
+    if (!reader) return reader.error();
+    return std::unique_ptr<EpochSource>(std::make_unique<UbxSource>(std::move(reader).value()));
   }
   Result<RinexObservationReader> reader = RinexObservationReader::Open(path);
   if (!reader) return reader.error();
@@ -167,10 +192,11 @@ Status ConvertObservations(const std::string& input, FileKind kind, const std::s
   const Status read = (*first)->status();
   if (!read.ok()) return read;
   if (epochs == 0) {
-    return Error{
-        ErrorCode::kBadData,
-        input + ": holds no epoch of raw measurements to convert" +
-            (kind == FileKind::kGnssLog ? "; switch on raw GNSS measurements in GnssLogger" : "")};
+    return Error{ErrorCode::kBadData,
+                 input + ": holds no epoch of raw measurements to convert" +
+                     (kind == FileKind::kGnssLog ? "; switch on raw GNSS measurements in GnssLogger"
+                      : kind == FileKind::kUbx   ? "; switch on UBX-RXM-RAWX in the receiver"
+                                                 : "")};
   }
 
   RinexObservationHeader header = (*first)->header();
@@ -222,9 +248,11 @@ Status ConvertFile(const std::string& input, const std::string& folder) {
   const Result<FileKind> kind = SniffFile(input);
   if (!kind) return kind.error();
   const bool navigation = *kind == FileKind::kRinexNavigation;
-  if (!navigation && *kind != FileKind::kGnssLog && *kind != FileKind::kRinexObservation) {
-    return Error{ErrorCode::kBadData,
-                 input + ": cannot be converted; it has to be GnssLogger text or RINEX"};
+  if (!navigation && *kind != FileKind::kGnssLog && *kind != FileKind::kRinexObservation &&
+      *kind != FileKind::kUbx) {
+    return Error{ErrorCode::kBadData, input +
+                                          ": cannot be converted; it has to be GnssLogger "
+                                          "text, a u-blox file or RINEX"};
   }
   const std::string output = OutputPath(folder, input, navigation ? ".nav" : ".obs");
   const Status other = CheckNotTheInput(input, output);

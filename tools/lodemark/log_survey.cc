@@ -9,6 +9,7 @@
 #include "core/logs/rinex_observation.h"
 #include "core/logs/sp3.h"
 #include "core/logs/trajectory.h"
+#include "core/logs/ubx.h"
 #include "tools/lodemark/command.h"
 
 namespace lodemark {
@@ -180,6 +181,32 @@ Status SurveyObservations(const std::string& path, const Progress& progress, Log
   return reader->status();
 }
 
+Status SurveyUbx(const std::string& path, const Progress& progress, LogSurvey* survey) {
+  Result<UbxReader> reader = UbxReader::Open(path);
+  if (!reader) return reader.error();
+  TimeLine times(survey);
+  UbxRecord record;
+  while (reader->Next(&record)) {
+    if (const auto* epoch = std::get_if<ObservationEpoch>(&record)) {
+      times.Add(epoch->time_gps_ns);
+      AddSignals(*epoch, survey);
+    }
+    progress(reader->progress());
+  }
+  times.Finish();
+  survey->rows = reader->message_counts();
+  survey->description = "u-blox receiver's messages";
+  if (survey->epochs == 0) {
+    survey->faults.push_back(
+        reader->epochs_without_time() > 0
+            ? "no epoch tells GPS time; record outdoors until the receiver has a fix"
+            : "there is no raw measurement; switch on UBX-RXM-RAWX in the receiver and record "
+              "again");
+  }
+  survey->report = reader->report();
+  return reader->status();
+}
+
 struct RecordCounter {
   LogSurvey* survey;
 
@@ -269,11 +296,15 @@ Result<LogSurvey> SurveyFile(const std::string& path, const Progress& progress) 
     case FileKind::kTrajectory:
       status = SurveyTrajectory(path, &survey);
       break;
+    case FileKind::kUbx:
+      status = SurveyUbx(path, progress, &survey);
+      break;
     case FileKind::kUnknown:
-      return Error{ErrorCode::kBadData,
-                   path +
-                       ": is no GNSS file we know; it has to be GnssLogger text, RINEX, SP3, a "
-                       "trajectory or a Decimeter Challenge csv, plain or gzip"};
+      return Error{
+          ErrorCode::kBadData,
+          path +
+              ": is no GNSS file we know; it has to be GnssLogger text, a u-blox file, RINEX, "
+              "SP3, a trajectory or a Decimeter Challenge csv, plain or gzip"};
   }
   if (!status.ok()) return status.error();
   survey.report.file = path;

@@ -60,6 +60,9 @@ ordered_json RunJson(const ReplayOptions& options, const ReplayInputs& inputs) {
     case ReplayInputs::Measurements::kKaggle:
       add("device_gnss", inputs.measurements);
       break;
+    case ReplayInputs::Measurements::kUbx:
+      add("receiver_raw", inputs.measurements);
+      break;
   }
   for (const std::string& path : inputs.navigation) add("navigation", path);
   for (const std::string& path : inputs.precise_orbits) add("precise_orbits", path);

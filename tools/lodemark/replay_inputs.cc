@@ -31,6 +31,8 @@ KindUse UseOf(FileKind kind) {
       return {"an SP3 file", "--sp3"};
     case FileKind::kTrajectory:
       return {"a trajectory", nullptr};
+    case FileKind::kUbx:
+      return {"a u-blox file", "--log"};
     case FileKind::kUnknown:
       break;
   }
@@ -71,6 +73,7 @@ Status FromFile(const std::string& path, FileKind expected, const char* option,
   inputs->name = fs::path(path).filename().string();
   inputs->kind = *kind == FileKind::kRinexObservation ? Kind::kObservation
                  : *kind == FileKind::kGnssLog        ? Kind::kGnssLog
+                 : *kind == FileKind::kUbx            ? Kind::kUbx
                                                       : Kind::kKaggle;
   return {};
 }
@@ -96,6 +99,7 @@ Status FromFolder(const std::string& folder, ReplayInputs* inputs) {
     Kind kind;
   } choices[] = {{"gnss_log", Kind::kGnssLog},
                  {"observation", Kind::kObservation},
+                 {"receiver_raw", Kind::kUbx},
                  {"device_gnss", Kind::kKaggle},
                  {"derived", Kind::kKaggle}};
   for (const auto& [role, kind] : choices) {
@@ -114,7 +118,7 @@ Status FromFolder(const std::string& folder, ReplayInputs* inputs) {
   return Error{ErrorCode::kBadData,
                folder +
                    ": has no measurements; a recording needs a GnssLogger text, a RINEX "
-                   "observation file or a Kaggle csv"};
+                   "observation file, a u-blox file or a Kaggle csv"};
 }
 
 // Photographs lie in cam0, as in recordings of EuRoC.
@@ -157,6 +161,7 @@ Error WithAdvice(Error error, const std::string& wanted) {
 std::string WantedMeasurements(Kind kind) {
   return UseOf(kind == Kind::kObservation ? FileKind::kRinexObservation
                : kind == Kind::kKaggle    ? FileKind::kDeviceGnss
+               : kind == Kind::kUbx       ? FileKind::kUbx
                                           : FileKind::kGnssLog)
       .name;
 }

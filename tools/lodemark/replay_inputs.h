@@ -21,7 +21,7 @@ struct ReplayRequest {
 };
 
 struct ReplayInputs {
-  enum class Measurements { kGnssLog, kObservation, kKaggle };
+  enum class Measurements { kGnssLog, kObservation, kKaggle, kUbx };
 
   std::string name;  // of the recording, or of the file
   Measurements kind = Measurements::kGnssLog;

@@ -6,6 +6,7 @@
 #include "core/logs/gnss_logger.h"
 #include "core/logs/kaggle_gnss.h"
 #include "core/logs/rinex_observation.h"
+#include "core/logs/ubx.h"
 
 namespace lodemark {
 namespace {
@@ -36,6 +37,7 @@ std::int64_t GpsTimeOf(const AndroidClock& clock) {
 std::string FirstProblemOf(const ReadReport& report) {
   if (report.problems.empty()) return "";
   const ReadProblem& problem = report.problems.front();
+  if (problem.line == 0) return "; the first problem is at " + problem.message;
   return "; the first malformed row is line " + std::to_string(problem.line) + ": " +
          problem.message;
 }
@@ -96,6 +98,48 @@ class GnssLogSource final : public MeasurementSource {
   GnssLoggerReader reader_;
   GnssLoggerRecord record_;
   std::deque<LoggedNavigationMessage> waiting_;
+  std::int64_t time_gps_ns_ = 0;
+};
+
+// Its orbits are known beforehand; what the messages between the epochs tell again is only counted.
+class UbxSource final : public MeasurementSource {
+ public:
+  explicit UbxSource(UbxReader reader) : reader_(std::move(reader)) {}
+
+  const ReadReport& report() const override { return reader_.report(); }
+  double progress() const override { return reader_.progress(); }
+  std::int64_t time_gps_ns() const override { return time_gps_ns_; }
+
+  Status Verdict() const override {
+    if (!reader_.status().ok() || counts_.epochs > 0) return reader_.status();
+    if (reader_.epochs_without_time() > 0) {
+      return Error{ErrorCode::kBadData,
+                   report().file + ": none of its " +
+                       std::to_string(reader_.epochs_without_time()) +
+                       " epochs tells GPS time; record outdoors until the receiver has a fix"};
+    }
+    return Error{ErrorCode::kBadData,
+                 report().file +
+                     ": holds no raw measurement; name a file that was recorded with "
+                     "UBX-RXM-RAWX switched on" +
+                     FirstProblemOf(report())};
+  }
+
+  bool PushNext(ReplaySession* session) override {
+    while (reader_.Next(&record_)) {
+      if (const auto* epoch = std::get_if<ObservationEpoch>(&record_)) {
+        time_gps_ns_ = epoch->time_gps_ns;
+        Count(session->Push(*epoch));
+        return true;
+      }
+      if (std::holds_alternative<LoggedNavigationMessage>(record_)) ++counts_.broadcast_taken;
+    }
+    return false;
+  }
+
+ private:
+  UbxReader reader_;
+  UbxRecord record_;
   std::int64_t time_gps_ns_ = 0;
 };
 
@@ -175,6 +219,8 @@ Result<std::unique_ptr<MeasurementSource>> OpenMeasurements(const ReplayInputs& 
                                          inputs.kind);
     case ReplayInputs::Measurements::kKaggle:
       return SourceOf<KaggleSource>(KaggleGnssReader::Open(inputs.measurements), inputs.kind);
+    case ReplayInputs::Measurements::kUbx:
+      return SourceOf<UbxSource>(UbxReader::Open(inputs.measurements), inputs.kind);
     case ReplayInputs::Measurements::kGnssLog:
       break;
   }

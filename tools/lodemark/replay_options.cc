@@ -62,7 +62,8 @@ void DeclareReplayOptions(CLI::App& command, ReplayOptions* options) {
   command.add_option("--out", options->out, "Folder to write the run to")->required();
 
   const std::string files = "Files in place of a recording";
-  command.add_option("--log", request.log, "GnssLogger text or Kaggle csv")->group(files);
+  command.add_option("--log", request.log, "GnssLogger text, u-blox file or Kaggle csv")
+      ->group(files);
   command.add_option("--obs", request.observation, "RINEX or CRINEX observations")->group(files);
   command.add_option("--nav", request.navigation, "RINEX navigation")->group(files);
   command.add_option("--sp3", request.precise_orbits, "Precise orbits and clocks")->group(files);

@@ -2,12 +2,24 @@
 
 #include <cstddef>
 
+#include "core/logs/rinex_navigation_writer.h"
+#include "tools/lodemark/broadcast_messages.h"
 #include "tools/lodemark/command.h"
 
 namespace lodemark {
 namespace {
 
 constexpr std::size_t kLargestOrbitFile_bytes = 512u * 1024 * 1024;
+
+// A receiver that starts warm has orbits that its file tells only later, so all that the file tells
+// is known from its first epoch on. Of several sets those already sent come first.
+Status PushBroadcast(const std::string& path, ReplaySession* session) {
+  const Result<std::vector<NavigationRecord>> records = ReadUbxBroadcast(path);
+  if (!records) return records.error();
+  if (records->empty()) return {};
+  lodemark_read_report report;
+  return session->PushNavigation(path, WriteRinexNavigation(*records, {}).text, &report);
+}
 
 }  // namespace
 
@@ -25,6 +37,10 @@ Status PushOrbits(const ReplayInputs& inputs, ReplaySession* session,
     }
     return {};
   };
+  if (inputs.kind == ReplayInputs::Measurements::kUbx) {
+    const Status pushed = PushBroadcast(inputs.measurements, session);
+    if (!pushed.ok()) return WithAdvice(pushed.error(), "a u-blox file");
+  }
   for (const std::string& path : inputs.navigation) {
     const Status pushed = push(path, &ReplaySession::PushNavigation, "a RINEX navigation file");
     if (!pushed.ok()) return pushed;

@@ -10,8 +10,8 @@
 
 namespace lodemark {
 
-// All navigation files and precise orbits. Adds a sentence to *remarks for each with malformed
-// records. Errors name the file and say what to do.
+// All navigation files and precise orbits, and what satellites broadcast into a u-blox file. Adds a
+// sentence to *remarks for each with malformed records. Errors name the file and say what to do.
 Status PushOrbits(const ReplayInputs& inputs, ReplaySession* session,
                   std::vector<std::string>* remarks);
 
