@@ -211,6 +211,11 @@ jint SessionPushImage(JNIEnv* env, jclass, jlong session, jobject frame, jobject
       stride_bytes);
 }
 
+jint SessionPushSensors(JNIEnv* env, jclass, jlong session, jobject samples, jint count) {
+  return lodemark_session_push_sensors(Handle<lodemark_session>(session),
+                                       Structs<lodemark_sensor_sample>(env, samples, count), count);
+}
+
 jint SessionProcess(JNIEnv*, jclass, jlong session) {
   return lodemark_session_process(Handle<lodemark_session>(session));
 }
@@ -299,6 +304,7 @@ bool Register(JNIEnv* env) {
       Native("sessionPushBroadcast", "(J" BUFFER BUFFER "I)I", SessionPushBroadcast),
       Native("sessionUseMap", "(JJ)I", SessionUseMap),
       Native("sessionPushImage", "(J" BUFFER BUFFER BUFFER "JJ)I", SessionPushImage),
+      Native("sessionPushSensors", "(J" BUFFER "I)I", SessionPushSensors),
       Native("sessionProcess", "(J)I", SessionProcess),
       Native("sessionQueued", "(J[I)I", SessionQueued),
       Native("sessionEstimate", "(J" BUFFER ")I", SessionEstimate),

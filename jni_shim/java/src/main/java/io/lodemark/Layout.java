@@ -111,6 +111,16 @@ final class Layout {
     static final int HEADING_SIGMA_DEG = 56;
   }
 
+  /** lodemark_sensor_sample. */
+  static final class SensorSample {
+    private SensorSample() {}
+
+    static final int SIZE = 40;
+    static final int SENSOR = 4;
+    static final int TIME_NS = 8;
+    static final int VALUE = 16;
+  }
+
   /** lodemark_lens. */
   static final class Lens {
     private Lens() {}

@@ -93,6 +93,8 @@ final class Native {
   static native int sessionPushImage(long session, ByteBuffer frame, ByteBuffer lens,
       ByteBuffer pixels, long size, long strideBytes);
 
+  static native int sessionPushSensors(long session, ByteBuffer samples, int count);
+
   static native int sessionProcess(long session);
 
   static native int sessionQueued(long session, int[] out);

@@ -1,7 +1,6 @@
 package io.lodemark;
 
 import java.nio.ByteBuffer;
-import java.util.ArrayList;
 import java.util.List;
 import java.util.Objects;
 
@@ -20,14 +19,17 @@ import java.util.Objects;
  */
 public final class PositioningSession extends Handle {
   private final ByteBuffer estimate = Struct.of(Layout.Estimate.SIZE);
-  private ByteBuffer satellites = Struct.of(Layout.Satellite.SIZE);
-  private ByteBuffer landmarks = Struct.of(Layout.Landmark.SIZE);
-  private ByteBuffer events = Struct.of(Layout.Event.SIZE);
+  private final StructList<SatelliteStatus> satellites =
+      new StructList<>(Layout.Satellite.SIZE, Native::sessionSatellites, SatelliteStatus::new);
+  private final StructList<LandmarkStatus> landmarks =
+      new StructList<>(Layout.Landmark.SIZE, Native::sessionLandmarks, LandmarkStatus::new);
+  private final StructList<SessionEvent> events =
+      new StructList<>(Layout.Event.SIZE, Native::sessionEvents, SessionEvent::new);
   private final int[] total = new int[1];
   private final TimeBase timeBase;
   private FeatureMap map;
 
-  private PositioningSession(long address, TimeBase timeBase) {
+  PositioningSession(long address, TimeBase timeBase) {
     super("session", address);
     this.timeBase = timeBase;
   }
@@ -46,8 +48,8 @@ public final class PositioningSession extends Handle {
    *
    * @return a builder with the defaults
    */
-  public static Builder builder() {
-    return new Builder();
+  public static SessionBuilder builder() {
+    return new SessionBuilder();
   }
 
   /**
@@ -152,6 +154,21 @@ public final class PositioningSession extends Handle {
   }
 
   /**
+   * Takes what accelerometer, gyroscope, barometer or vehicle measured; it needs no {@link
+   * #process}. Push what was measured before an epoch before the epoch is processed: later it is
+   * not heard. {@link Estimator#FILTER} and {@link Estimator#SMOOTHER} use it. A sample that is not
+   * later than the one before of its sensor is dropped, and an event tells of the first.
+   *
+   * @param batch copied; those of one sensor in the order of their times
+   */
+  public void pushImu(ImuBatch batch) {
+    Objects.requireNonNull(batch, "batch");
+    synchronized (lock) {
+      Native.check(Native.sessionPushSensors(address(), batch.rows(), batch.size()));
+    }
+  }
+
+  /**
    * Has photographs looked up in a map, and satellites behind its buildings trusted less. The map
    * may be closed meanwhile: the session keeps what it needs of it.
    *
@@ -244,8 +261,7 @@ public final class PositioningSession extends Handle {
    */
   public List<SatelliteStatus> satellites() {
     synchronized (lock) {
-      satellites = fetch(satellites, Layout.Satellite.SIZE, Native::sessionSatellites);
-      return read(satellites, Layout.Satellite.SIZE, SatelliteStatus::new);
+      return satellites.fetch(address());
     }
   }
 
@@ -256,8 +272,7 @@ public final class PositioningSession extends Handle {
    */
   public List<LandmarkStatus> landmarks() {
     synchronized (lock) {
-      landmarks = fetch(landmarks, Layout.Landmark.SIZE, Native::sessionLandmarks);
-      return read(landmarks, Layout.Landmark.SIZE, LandmarkStatus::new);
+      return landmarks.fetch(address());
     }
   }
 
@@ -269,9 +284,9 @@ public final class PositioningSession extends Handle {
    */
   public List<Estimate> smoothed() {
     synchronized (lock) {
-      ByteBuffer all =
-          fetch(Struct.of(Layout.Estimate.SIZE), Layout.Estimate.SIZE, Native::sessionSmoothed);
-      return read(all, Layout.Estimate.SIZE, Estimate::new);
+      // Not kept: a recording's worth of estimates is large.
+      return new StructList<>(Layout.Estimate.SIZE, Native::sessionSmoothed, Estimate::new)
+          .fetch(address());
     }
   }
 
@@ -282,8 +297,7 @@ public final class PositioningSession extends Handle {
    */
   public List<SessionEvent> takeEvents() {
     synchronized (lock) {
-      events = fetch(events, Layout.Event.SIZE, Native::sessionEvents);
-      List<SessionEvent> taken = read(events, Layout.Event.SIZE, SessionEvent::new);
+      List<SessionEvent> taken = events.fetch(address());
       Native.check(Native.sessionClearEvents(address()));
       return taken;
     }
@@ -322,239 +336,5 @@ public final class PositioningSession extends Handle {
       Native.check(push.call(address(), utf8, bytes, bytes.capacity(), report));
     }
     return new ReadReport(report, 0);
-  }
-
-  /** One of the natives that fill a list. */
-  private interface ListNative {
-    int call(long session, ByteBuffer out, int capacity, int[] total);
-  }
-
-  /** A value class made of one struct of a list. */
-  private interface Reader<T> {
-    T read(ByteBuffer structs, int at);
-  }
-
-  /** Fills structs, or a larger array where it has too little room; total is how many there are. */
-  private ByteBuffer fetch(ByteBuffer structs, int size, ListNative list) {
-    Native.check(list.call(address(), structs, structs.capacity() / size, total));
-    if (total[0] <= structs.capacity() / size)
-      return structs;
-    int capacity = total[0] + total[0] / 2;
-    ByteBuffer larger = Struct.array(size, capacity);
-    Native.check(list.call(address(), larger, capacity, total));
-    return larger;
-  }
-
-  private <T> List<T> read(ByteBuffer structs, int size, Reader<T> reader) {
-    List<T> values = new ArrayList<>(total[0]);
-    for (int i = 0; i < total[0]; ++i) values.add(reader.read(structs, i * size));
-    return values;
-  }
-
-  /** The options of a session. All of them may be left as they are. */
-  public static final class Builder {
-    private final ByteBuffer options = Struct.of(Layout.SessionOptions.SIZE);
-
-    private Builder() {}
-
-    /**
-     * Which clock its times are of; GPS if not set.
-     *
-     * @param timeBase the clock
-     * @return this
-     */
-    public Builder timeBase(TimeBase timeBase) {
-      return put(Layout.SessionOptions.TIME_BASE, timeBase.ordinal());
-    }
-
-    /**
-     * The systems to use; all if not set.
-     *
-     * @param systems at least one
-     * @return this
-     */
-    public Builder systems(SatelliteSystem... systems) {
-      if (systems.length == 0)
-        throw new IllegalArgumentException("systems is empty");
-      int bits = 0;
-      for (SatelliteSystem system : systems) bits |= 1 << system.ordinal();
-      return put(Layout.SessionOptions.SYSTEMS, bits);
-    }
-
-    /**
-     * What a position is made of where there are photographs; jointly if not set.
-     *
-     * @param scheme the choice
-     * @return this
-     */
-    public Builder scheme(Scheme scheme) {
-      return put(Layout.SessionOptions.SCHEME, scheme.ordinal());
-    }
-
-    /**
-     * What a position takes from the moments before; nothing but biases if not set.
-     *
-     * @param estimator the choice
-     * @return this
-     */
-    public Builder estimator(Estimator estimator) {
-      return put(Layout.SessionOptions.ESTIMATOR, estimator.ordinal());
-    }
-
-    /**
-     * How the ionosphere is modelled; the best way if not set.
-     *
-     * @param ionosphere the choice
-     * @return this
-     */
-    public Builder ionosphere(Ionosphere ionosphere) {
-      return put(Layout.SessionOptions.IONOSPHERE, ionosphere.ordinal());
-    }
-
-    /**
-     * How the troposphere is modelled; after Saastamoinen if not set.
-     *
-     * @param troposphere the choice
-     * @return this
-     */
-    public Builder troposphere(Troposphere troposphere) {
-      return put(Layout.SessionOptions.TROPOSPHERE, troposphere.ordinal());
-    }
-
-    /**
-     * What the weight of a range follows; its signal if not set.
-     *
-     * @param weighting the choice
-     * @return this
-     */
-    public Builder weighting(Weighting weighting) {
-      return put(Layout.SessionOptions.WEIGHT, weighting.ordinal());
-    }
-
-    /**
-     * How many epochs may wait for {@link PositioningSession#process}; 64 if not set.
-     *
-     * @param epochs 1 to 4096
-     * @return this
-     */
-    public Builder queueCapacity(int epochs) {
-      return put(Layout.SessionOptions.QUEUE_CAPACITY, epochs);
-    }
-
-    /**
-     * Satellites below are not used; 5 degrees if not set.
-     *
-     * @param degrees above the horizon; -90 for no mask
-     * @return this
-     */
-    public Builder elevationMask(double degrees) {
-      // To the library 0 means the default; a mask that no satellite can tell from 0 does not.
-      return put(Layout.SessionOptions.ELEVATION_MASK_DEG, degrees == 0.0 ? 1e-9 : degrees);
-    }
-
-    /**
-     * Weaker signals are not used; 10 dB-Hz if not set.
-     *
-     * @param dbHz 0 or less for no limit
-     * @return this
-     */
-    public Builder smallestCn0(double dbHz) {
-      return put(Layout.SessionOptions.SMALLEST_CN0_DBHZ, dbHz <= 0.0 ? -1.0 : dbHz);
-    }
-
-    /**
-     * Of {@link Weighting#ELEVATION}: a^2 + b^2 / sin^2(elevation); 1 m each if not set.
-     *
-     * @param aMeters the part that is the same everywhere
-     * @param bMeters the part that grows towards the horizon
-     * @return this
-     */
-    public Builder elevationModel(double aMeters, double bMeters) {
-      put(Layout.SessionOptions.ELEVATION_A_M, aMeters);
-      return put(Layout.SessionOptions.ELEVATION_B_M, bMeters);
-    }
-
-    /**
-     * Where every random choice begins; 1 if not set.
-     *
-     * @param seed any number but 0
-     * @return this
-     */
-    public Builder seed(long seed) {
-      options.putLong(Layout.SessionOptions.SEED, seed);
-      return this;
-    }
-
-    /**
-     * Scales the stated variances to what the residuals say.
-     *
-     * @return this
-     */
-    public Builder varianceComponents() {
-      return flag(Values.SESSION_VARIANCE_COMPONENTS);
-    }
-
-    /**
-     * Estimates a tropospheric zenith delay.
-     *
-     * @return this
-     */
-    public Builder zenithDelay() {
-      return flag(Values.SESSION_ZENITH_DELAY);
-    }
-
-    /**
-     * Keeps a weak memory of the height.
-     *
-     * @return this
-     */
-    public Builder heightMemory() {
-      return flag(Values.SESSION_HEIGHT_MEMORY);
-    }
-
-    /**
-     * Learns no biases from past epochs.
-     *
-     * @return this
-     */
-    public Builder fixedBiases() {
-      return flag(Values.SESSION_FIXED_BIASES);
-    }
-
-    /**
-     * Uses satellites that say they are unhealthy.
-     *
-     * @return this
-     */
-    public Builder acceptUnhealthy() {
-      return flag(Values.SESSION_ACCEPT_UNHEALTHY);
-    }
-
-    /**
-     * Opens a session with these options, which stay for further ones.
-     *
-     * @return an open session
-     */
-    public PositioningSession open() {
-      long[] out = new long[1];
-      Native.check(Native.sessionOpen(options, out));
-      TimeBase base = TimeBase.values()[options.getInt(Layout.SessionOptions.TIME_BASE)];
-      return new PositioningSession(out[0], base);
-    }
-
-    private Builder put(int at, int value) {
-      options.putInt(at, value);
-      return this;
-    }
-
-    private Builder put(int at, double value) {
-      options.putDouble(at, value);
-      return this;
-    }
-
-    private Builder flag(int bit) {
-      Struct.setBit(options, Layout.SessionOptions.FLAGS, bit);
-      return this;
-    }
   }
 }

@@ -85,6 +85,8 @@ public final class SessionEvent {
     PHOTO_FAILED,
     /** The map was moved to where satellites put it. */
     MAP_DATUM,
+    /** Samples of a sensor that came late were dropped. */
+    SENSOR_DROPPED,
     /** One of a newer library. */
     UNKNOWN
   }

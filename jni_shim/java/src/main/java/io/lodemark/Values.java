@@ -58,6 +58,10 @@ final class Values {
   static final int MEASUREMENT_HAS_GIVEN_PSEUDORANGE = 0x1000;
   static final int FRAME_HAS_GRAVITY = 0x1;
   static final int FRAME_HAS_HEADING = 0x2;
+  static final int SENSOR_ACCELEROMETER = 1;
+  static final int SENSOR_GYROSCOPE = 2;
+  static final int SENSOR_BAROMETER = 3;
+  static final int SENSOR_VEHICLE = 4;
   static final int ESTIMATE_HAS_POSITION = 0x1;
   static final int ESTIMATE_HAS_VELOCITY = 0x2;
   static final int ESTIMATE_HAS_GPS_TIME = 0x4;

@@ -60,7 +60,7 @@ final class Recorded {
   }
 
   /** A session for that epoch, which was simulated without an atmosphere. */
-  static PositioningSession.Builder builder() {
+  static SessionBuilder builder() {
     return PositioningSession.builder().ionosphere(Ionosphere.NONE).troposphere(Troposphere.NONE);
   }
 

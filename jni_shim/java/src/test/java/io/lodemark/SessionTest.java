@@ -144,6 +144,38 @@ class SessionTest {
   }
 
   @Test
+  void samplesOfSensorsAreTaken() {
+    ImuBatch batch = new ImuBatch();
+    for (int i = 0; i < 1000; ++i) {
+      long timeNanos = 7_000_000_000L + i * 10_000_000L;
+      batch.addAccelerometer(timeNanos, 0.1, 9.8, 0.2).addGyroscope(timeNanos, 0, 0, 0.1);
+    }
+    batch.addBarometer(7_000_000_000L, 1013.25).addVehicle(7_000_000_000L, 1.5, 0);
+    assertEquals(2002, batch.size());
+    for (int i = 0; i < batch.size(); ++i) {
+      int at = i * Layout.SensorSample.SIZE;
+      assertEquals(Layout.SensorSample.SIZE, batch.rows().getInt(at));
+    }
+    int last = 2001 * Layout.SensorSample.SIZE;
+    assertEquals(Values.SENSOR_VEHICLE, batch.rows().getInt(last + Layout.SensorSample.SENSOR));
+    assertEquals(1.5, batch.rows().getDouble(last + Layout.SensorSample.VALUE));
+    try (PositioningSession session = Recorded.builder().timeBase(TimeBase.BOOT).open()) {
+      session.pushImu(batch);
+      assertTrue(session.takeEvents().isEmpty());
+      session.pushImu(batch); // nothing of it is new
+      assertEquals(SessionEvent.Kind.SENSOR_DROPPED, session.takeEvents().get(0).getKind());
+      session.pushImu(batch.clear());
+      batch.addGyroscope(20_000_000_000L, Double.NaN, 0, 0);
+      assertEquals(
+          LodemarkException.Status.INVALID_ARGUMENT, refusal(() -> session.pushImu(batch)));
+      assertThrows(NullPointerException.class, () -> session.pushImu(null));
+    }
+    batch.clear();
+    for (int i = 0; i < ImuBatch.LARGEST_SIZE; ++i) batch.addBarometer(i, 1000);
+    assertThrows(IllegalStateException.class, () -> batch.addBarometer(0, 1000));
+  }
+
+  @Test
   void aFullQueueSaysSo() {
     try (PositioningSession session = Recorded.builder().queueCapacity(1).open()) {
       GnssEpoch epoch = Recorded.fill(new GnssEpoch());
@@ -154,23 +186,23 @@ class SessionTest {
 
   @Test
   void everyOptionIsTaken() {
-    PositioningSession.Builder builder = PositioningSession.builder()
-                                             .systems(SatelliteSystem.GPS, SatelliteSystem.GALILEO)
-                                             .scheme(Scheme.TIGHT)
-                                             .estimator(Estimator.FILTER)
-                                             .ionosphere(Ionosphere.CLIMATOLOGY)
-                                             .troposphere(Troposphere.HOPFIELD)
-                                             .weighting(Weighting.ELEVATION)
-                                             .queueCapacity(7)
-                                             .elevationMask(0)
-                                             .smallestCn0(-5)
-                                             .elevationModel(0.5, 0.7)
-                                             .seed(9)
-                                             .varianceComponents()
-                                             .zenithDelay()
-                                             .heightMemory()
-                                             .fixedBiases()
-                                             .acceptUnhealthy();
+    SessionBuilder builder = PositioningSession.builder()
+                                 .systems(SatelliteSystem.GPS, SatelliteSystem.GALILEO)
+                                 .scheme(Scheme.TIGHT)
+                                 .estimator(Estimator.FILTER)
+                                 .ionosphere(Ionosphere.CLIMATOLOGY)
+                                 .troposphere(Troposphere.HOPFIELD)
+                                 .weighting(Weighting.ELEVATION)
+                                 .queueCapacity(7)
+                                 .elevationMask(0)
+                                 .smallestCn0(-5)
+                                 .elevationModel(0.5, 0.7)
+                                 .seed(9)
+                                 .varianceComponents()
+                                 .zenithDelay()
+                                 .heightMemory()
+                                 .fixedBiases()
+                                 .acceptUnhealthy();
     builder.open().close();
     assertEquals(LodemarkException.Status.INVALID_ARGUMENT,
         refusal(() -> PositioningSession.builder().queueCapacity(-1).open()));

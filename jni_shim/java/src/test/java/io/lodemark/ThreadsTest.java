@@ -118,7 +118,7 @@ class ThreadsTest {
 
   @Test
   void openingAndClosingLeavesNothingBehind() {
-    PositioningSession.Builder builder = PositioningSession.builder().queueCapacity(1);
+    SessionBuilder builder = PositioningSession.builder().queueCapacity(1);
     long grownMegabytes = growth(100_000, () -> {
       try (PositioningSession session = builder.open()) {
         assertEquals(0, session.queued());

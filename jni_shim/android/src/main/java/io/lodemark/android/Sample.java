@@ -17,6 +17,12 @@ final class Sample {
     System.arraycopy(from, 0, values, 0, count);
   }
 
+  boolean isFinite() {
+    boolean finite = count > 0;
+    for (int i = 0; i < count; ++i) finite &= GnssEvents.finite(values[i]);
+    return finite;
+  }
+
   void copy(Sample other) {
     set(other.sensorType, other.bootNanos, other.values);
     count = other.count;

@@ -7,6 +7,7 @@ import android.location.GnssNavigationMessage;
 import io.lodemark.CameraImage;
 import io.lodemark.Estimate;
 import io.lodemark.GnssEpoch;
+import io.lodemark.ImuBatch;
 import io.lodemark.LodemarkException;
 import io.lodemark.PositioningSession;
 import io.lodemark.TimeBase;
@@ -22,6 +23,7 @@ final class SessionFeeder {
   private final Consumer<String> teller;
   private final GnssEpoch epoch = new GnssEpoch();
   private final Sample sample = new Sample();
+  private final ImuBatch batch = new ImuBatch();
   private final Tilt tilt = new Tilt();
   private final BootClock clock = new BootClock();
   private final ArrayDeque<GnssNavigationMessage> messages = new ArrayDeque<>();
@@ -42,6 +44,7 @@ final class SessionFeeder {
         take(sample);
         continue;
       }
+      pushSamples();
       Intake.Item item = intake.take();
       if (item == null)
         return;
@@ -66,7 +69,7 @@ final class SessionFeeder {
     record(to -> to.write(event, bootNanos));
     pushMessages();
     GnssEvents.fill(event, epoch);
-    if (push(FeedKind.EPOCH, () -> session.pushGnss(bootNanos, epoch)))
+    if (push(FeedKind.EPOCH, 1, () -> session.pushGnss(bootNanos, epoch)))
       process();
   }
 
@@ -113,7 +116,7 @@ final class SessionFeeder {
     image.setTimeNanos(inSession(photo.bootNanos));
     if (up != null)
       image.setGravity(up, Tilt.SIGMA_DEGREES);
-    if (push(FeedKind.IMAGE, () -> session.pushImage(image)))
+    if (push(FeedKind.IMAGE, 1, () -> session.pushImage(image)))
       process();
   }
 
@@ -122,26 +125,51 @@ final class SessionFeeder {
     if (next.sensorType == Sensor.TYPE_GAME_ROTATION_VECTOR && next.count >= 4) {
       tilt.add(next.bootNanos, next.values[0], next.values[1], next.values[2], next.values[3]);
       tally.use(FeedKind.SAMPLE, 1);
+      return;
     }
+    boolean placed = session.getTimeBase() == TimeBase.BOOT || clock.isKnown();
+    if (!placed || !next.isFinite()) {
+      tally.refuse(FeedKind.SAMPLE, 1);
+      return;
+    }
+    long timeNanos = inSession(next.bootNanos);
+    float[] v = next.values;
+    if (next.sensorType == Sensor.TYPE_ACCELEROMETER_UNCALIBRATED) {
+      batch.addAccelerometer(timeNanos, v[0], v[1], v[2]);
+    } else if (next.sensorType == Sensor.TYPE_GYROSCOPE_UNCALIBRATED) {
+      batch.addGyroscope(timeNanos, v[0], v[1], v[2]);
+    } else {
+      batch.addBarometer(timeNanos, v[0]);
+    }
+    if (batch.size() == ImuBatch.LARGEST_SIZE)
+      pushSamples();
+  }
+
+  private void pushSamples() {
+    int count = batch.size();
+    if (count == 0)
+      return;
+    push(FeedKind.SAMPLE, count, () -> session.pushImu(batch));
+    batch.clear();
   }
 
   private long inSession(long bootNanos) {
     return session.getTimeBase() == TimeBase.BOOT ? bootNanos : clock.gpsNanos(bootNanos);
   }
 
-  private boolean push(FeedKind kind, Runnable call) {
+  private boolean push(FeedKind kind, int count, Runnable call) {
     try {
       call.run();
-      tally.use(kind, 1);
+      tally.use(kind, count);
       return true;
     } catch (LodemarkException refusal) {
-      tally.refuse(kind, 1);
+      tally.refuse(kind, count);
       teller.accept(
           kind == FeedKind.IMAGE && refusal.getStatus() == LodemarkException.Status.OUT_OF_ORDER
               ? "Photographs are not looked up: give the session a map with useMap()."
               : "The session refused some " + kind.plural() + ": " + refusal.getMessage());
     } catch (IllegalStateException closed) {
-      tally.refuse(kind, 1);
+      tally.refuse(kind, count);
       tellClosed();
     }
     return false;

@@ -40,19 +40,27 @@ final class Recorded {
     return new BufferedReader(new InputStreamReader(in, StandardCharsets.UTF_8));
   }
 
-  /** The rows of trajectory.csv that have a position, as replay finds them. */
-  static List<String[]> replay(Path out, String... arguments)
-      throws IOException, InterruptedException {
+  /** Runs the command, which must succeed; skips the test where it was not built. */
+  static void command(String... arguments) throws IOException, InterruptedException {
     Path command = Paths.get(System.getProperty("lodemark.command", "none"));
     assumeTrue("the command lodemark was not built", Files.isExecutable(command));
-    List<String> words = new ArrayList<>(Arrays.asList(command.toString(), "replay"));
+    List<String> words = new ArrayList<>(Arrays.asList(command.toString()));
     words.addAll(Arrays.asList(arguments));
-    words.addAll(Arrays.asList("--out", out.toString()));
-    File said = new File(out.toString() + ".log");
+    File said = File.createTempFile("lodemark", ".log");
     Process process =
         new ProcessBuilder(words).redirectErrorStream(true).redirectOutput(said).start();
     int status = process.waitFor();
     assertEquals(String.join("\n", Files.readAllLines(said.toPath())), 0, status);
+    Files.delete(said.toPath());
+  }
+
+  /** The rows of trajectory.csv that have a position, as replay finds them. */
+  static List<String[]> replay(Path out, String... arguments)
+      throws IOException, InterruptedException {
+    List<String> words = new ArrayList<>(Arrays.asList("replay"));
+    words.addAll(Arrays.asList(arguments));
+    words.addAll(Arrays.asList("--out", out.toString()));
+    command(words.toArray(new String[0]));
     List<String[]> rows = new ArrayList<>();
     for (String line : Files.readAllLines(out.resolve("trajectory.csv"))) {
       String[] cells = line.split(",", -1);

@@ -89,13 +89,15 @@ public class SensorFeedTest {
       for (int type : FrameworkSources.SENSOR_TYPES) {
         SensorEvent event = SensorEventBuilder.newBuilder()
                                 .setSensor(Phone.sensor(type))
-                                .setValues(new float[6])
+                                .setValues(new float[] {500, 2, 3, 0, 0, 0})
                                 .setTimestamp(Phone.TAKEN)
                                 .build();
         Shadows.shadowOf(sensors).sendSensorEventToListeners(event);
       }
       feed.stop();
-      assertEquals(4, feed.getCounts().getGiven(FeedKind.SAMPLE));
+      FeedCounts counts = feed.getCounts();
+      assertEquals(4, counts.getGiven(FeedKind.SAMPLE));
+      assertEquals(counts.toString(), 4, counts.getUsed(FeedKind.SAMPLE));
     }
     Estimate fix = fixes.estimates.get(0);
     assertTrue(fix.hasPosition());
@@ -283,7 +285,7 @@ public class SensorFeedTest {
       feed.onSample(Sensor.TYPE_GAME_ROTATION_VECTOR, middle, new float[] {half, 0, 0, half});
       feed.onSample(Sensor.TYPE_ACCELEROMETER_UNCALIBRATED, middle,
           new float[] {0.1f, 9.8f, 0.2f, 0.01f, 0.02f, 0.03f});
-      feed.onSample(Sensor.TYPE_GYROSCOPE_UNCALIBRATED, middle, new float[] {1, 2, 3, 0, 0, 0});
+      feed.onSample(Sensor.TYPE_GYROSCOPE_UNCALIBRATED, middle, new float[] {500, 2, 3, 0, 0, 0});
       feed.onSample(Sensor.TYPE_PRESSURE, middle, new float[] {1013.25f});
       feed.onSample(Sensor.TYPE_LIGHT, middle, new float[] {1});
       assertTrue(feed.onImage(photograph(), Phone.capture(Phone.TAKEN), Phone.camera(true, true)));
