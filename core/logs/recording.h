@@ -13,7 +13,7 @@
 
 namespace lodemark {
 
-// What a file is, as its first lines tell.
+// What a file is, as its first lines or messages tell.
 enum class FileKind : std::uint8_t {
   kUnknown,
   kGnssLog,           // GnssLogger text
@@ -23,6 +23,7 @@ enum class FileKind : std::uint8_t {
   kDeviceGnss,  // Kaggle 2022 and 2023
   kDerived,     // Kaggle 2021
   kTrajectory,  // truth.csv or trajectory.csv
+  kUbx,         // of a u-blox receiver
 };
 
 // Fails if the file cannot be opened or is empty.
@@ -36,8 +37,8 @@ struct Recording {
   std::string name;
   std::string device;  // empty if unstated
   bool has_manifest = false;
-  // Role ("gnss_log", "observation", "navigation", "precise_orbits", "device_gnss", "derived",
-  // "truth", "base_observation", ...) to the paths of its files. Every file was there.
+  // Role ("gnss_log", "observation", "receiver_raw", "navigation", "precise_orbits", "device_gnss",
+  // "derived", "truth", "base_observation", ...) to the paths of its files. Every file was there.
   std::map<std::string, std::vector<std::string>, std::less<>> files;
   std::optional<Eigen::Vector3d> static_in_ecef;  // metres, of a receiver at rest
   std::optional<Eigen::Vector3d> base_in_ecef;
