@@ -7,6 +7,7 @@
 
 #include "core/base/units.h"
 #include "core/geo/geodetic.h"
+#include "core/geo/rotation.h"
 
 namespace lodemark {
 namespace {
@@ -31,19 +32,6 @@ constexpr double kNoShift_m = 1e-5;
 
 // Below this the point is behind the camera or beside it.
 constexpr double kLeastForward = 0.05;
-
-// v x axis for each axis: what a rotation does to a vector, negated.
-Eigen::Matrix3d CrossOf(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d cross;
-  cross << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return cross;
-}
-
-Eigen::Quaterniond Turn(const Eigen::Vector3d& turn_rad) {
-  const double angle_rad = turn_rad.norm();
-  if (angle_rad < 1e-12) return Eigen::Quaterniond::Identity();
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, turn_rad / angle_rad));
-}
 
 }  // namespace
 

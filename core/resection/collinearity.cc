@@ -5,18 +5,9 @@
 #include <cmath>
 #include <optional>
 
+#include "core/geo/rotation.h"
+
 namespace lodemark {
-namespace {
-
-// Columns: what a rotation about each axis does to a vector, negated: v x axis.
-Eigen::Matrix3d CrossOf(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d cross;
-  cross << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return cross;
-}
-
-}  // namespace
-
 CameraPose CameraPose::Moved(const Vector6d& step) const {
   CameraPose moved;
   moved.centre_in_enu_m = centre_in_enu_m + step.head<3>();
