@@ -31,6 +31,12 @@ void MotionFilter::Start(const Eigen::Vector3d& position_in_ecef,
                                      kAnyClimb_mps * kAnyClimb_mps));
 }
 
+void MotionFilter::Start(const MotionState& state) {
+  started_ = true;
+  step_ = MotionStep();
+  step_.filtered = state;
+}
+
 void MotionFilter::Advance(double seconds, std::span<const RangeRateObservation> rates,
                            std::span<const RangeChangeObservation> changes,
                            const MotionModel& model, MotionVerdicts* verdicts) {

@@ -23,6 +23,8 @@ class MotionFilter {
 
   // Begins at a position; nothing is known of the velocity but that it is a person's or a car's.
   void Start(const Eigen::Vector3d& position_in_ecef, const Eigen::Matrix3d& covariance_enu_m2);
+  // Begins at a state that was known otherwise.
+  void Start(const MotionState& state);
   void Stop() { started_ = false; }
 
   // Carries the state on, for a millisecond at least; stops where numbers run out. rates: at the
