@@ -128,6 +128,7 @@ void EpochFilter::Move(std::int64_t time_ns) {
     return;
   }
   MakeRoomForAStep();
+  const std::int64_t from_ns = time_ns_;
   time_ns_ = time_ns;
   if (!filter_.started()) return;
   if (!(seconds > 0.0) || seconds > kLongestSilence_s) {
@@ -136,7 +137,7 @@ void EpochFilter::Move(std::int64_t time_ns) {
   }
   silent_s_ += seconds;
   if (silent_s_ > kLongestCounting_s) epochs_ = kVeryMany;
-  filter_.Advance(seconds, rates_, changes_, accelerations_.After(silent_s_), &verdicts_);
+  filter_.Advance(from_ns, time_ns, rates_, changes_, accelerations_.After(silent_s_), &verdicts_);
   if (remembers_ && filter_.started()) steps_.push_back(filter_.step());
 }
 
@@ -249,7 +250,7 @@ Eigen::Matrix3d EpochFilter::PositionCovarianceEnu() const {
 
 void EpochFilter::Forget() {
   std::vector<MotionStep> steps = std::move(steps_);
-  *this = EpochFilter(remembers_);
+  *this = EpochFilter(remembers_, sensors_);
   steps_ = std::move(steps);
 }
 

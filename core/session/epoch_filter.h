@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/fusion/acceleration_memory.h"
-#include "core/fusion/motion_filter.h"
 #include "core/fusion/point_adjustment.h"
 #include "core/fusion/position_statement.h"
+#include "core/session/carried_motion.h"
 #include "core/session/error_persistence.h"
 #include "core/session/gnss_epoch.h"
 #include "core/session/phase_changes.h"
@@ -22,10 +22,12 @@ namespace lodemark {
 // Times are the session's.
 class EpochFilter {
  public:
-  // remembers: every step it takes, for smoothing.
-  explicit EpochFilter(bool remembers) : remembers_(remembers) {}
+  // remembers: every step it takes, for smoothing, and does without sensors; they must stay.
+  EpochFilter(bool remembers, const SensorBuffer* sensors)
+      : remembers_(remembers), sensors_(remembers ? nullptr : sensors), filter_(sensors_) {}
 
   bool started() const { return filter_.started(); }
+  bool inertial() const { return filter_.inertial(); }
   std::int64_t time_ns() const { return time_ns_; }
   Eigen::Vector3d position_in_ecef() const { return filter_.position_in_ecef(); }
   Eigen::Vector3d velocity_in_ecef_mps() const { return filter_.velocity_in_ecef_mps(); }
@@ -74,7 +76,8 @@ class EpochFilter {
   void Hear(const PointEstimate& point, double share, bool ranged);
 
   bool remembers_;
-  MotionFilter filter_;
+  const SensorBuffer* sensors_;
+  CarriedMotion filter_;
   std::vector<MotionStep> steps_;
   PhaseChanges phases_;
   ErrorPersistence persistence_;

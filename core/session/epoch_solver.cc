@@ -91,11 +91,11 @@ bool LacksOrbits(std::span<const SatelliteStatus> statuses) {
 
 }  // namespace
 
-EpochSolver::EpochSolver(const SessionOptions& options)
+EpochSolver::EpochSolver(const SessionOptions& options, const SensorBuffer* sensors)
     : options_(options),
       model_(options),
       weights_(options),
-      filter_(options.estimator == Estimator::kSmoother) {}
+      filter_(options.estimator == Estimator::kSmoother, sensors) {}
 
 void EpochSolver::Solve(const ObservationEpoch& epoch, const PhotoPart& photo,
                         SessionEstimate* estimate, std::vector<SatelliteStatus>* statuses) {

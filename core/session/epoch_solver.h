@@ -36,7 +36,8 @@ struct PhotoPart {
 // Epochs come in the order of their time. Allocates only while they grow.
 class EpochSolver {
  public:
-  explicit EpochSolver(const SessionOptions& options);
+  // sensors: what the filter may carry the motion by; null for nothing.
+  explicit EpochSolver(const SessionOptions& options, const SensorBuffer* sensors = nullptr);
 
   SatelliteOrbits& orbits() { return orbits_; }
   IonosphereModel& ionosphere() { return ionosphere_; }

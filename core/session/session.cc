@@ -42,7 +42,7 @@ bool NamesChannels(const AndroidEpoch& epoch) {
 
 struct Session::Impl {
   explicit Impl(const SessionOptions& session_options)
-      : options(session_options), solver(session_options), photos(session_options) {}
+      : options(session_options), solver(session_options, &sensors), photos(session_options) {}
 
   struct QueuedEpoch {
     std::int64_t time_ns = 0;

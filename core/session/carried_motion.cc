@@ -1,0 +1,69 @@
+#include "core/session/carried_motion.h"
+
+namespace lodemark {
+
+Eigen::Vector3d CarriedMotion::position_in_ecef() const {
+  return inertial() ? inertial_.filter().state().position_in_ecef : motion_.position_in_ecef();
+}
+
+Eigen::Vector3d CarriedMotion::velocity_in_ecef_mps() const {
+  return inertial() ? inertial_.filter().state().velocity_in_ecef_mps
+                    : motion_.velocity_in_ecef_mps();
+}
+
+double CarriedMotion::clock_drift_mps() const {
+  return inertial() ? inertial_.filter().clock_drift_mps() : motion_.clock_drift_mps();
+}
+
+Eigen::Matrix3d CarriedMotion::PositionCovarianceEnu() const {
+  return inertial() ? inertial_.filter().PositionCovarianceEnu() : motion_.PositionCovarianceEnu();
+}
+
+Eigen::Matrix3d CarriedMotion::VelocityCovarianceEnu() const {
+  return inertial() ? inertial_.filter().VelocityCovarianceEnu() : motion_.VelocityCovarianceEnu();
+}
+
+void CarriedMotion::Start(const Eigen::Vector3d& position_in_ecef,
+                          const Eigen::Matrix3d& covariance_enu_m2) {
+  inertial_.Forget();
+  motion_.Start(position_in_ecef, covariance_enu_m2);
+}
+
+void CarriedMotion::Stop() {
+  inertial_.Forget();
+  motion_.Stop();
+}
+
+void CarriedMotion::Advance(std::int64_t from_ns, std::int64_t to_ns,
+                            std::span<const RangeRateObservation> rates,
+                            std::span<const RangeChangeObservation> changes,
+                            const MotionModel& model, MotionVerdicts* verdicts) {
+  if (inertial()) {
+    MotionState before;
+    const InertialState& state = inertial_.filter().state();
+    before.mean << state.position_in_ecef, state.velocity_in_ecef_mps;
+    before.covariance = inertial_.filter().covariance().topLeftCorner<6, 6>();
+    const bool reached = inertial_.Advance(from_ns, to_ns, rates, changes, verdicts);
+    if (reached && inertial()) return;
+    // Back to what moves by itself, from where it was.
+    inertial_.Forget();
+    motion_.Start(before);
+  }
+  motion_.Advance(1e-9 * static_cast<double>(to_ns - from_ns), rates, changes, model, verdicts);
+  if (!motion_.started()) return;
+  inertial_.Note(to_ns, motion_, verdicts->rates_agree || verdicts->changes_agree);
+}
+
+PositionStatement CarriedMotion::Place() const {
+  return inertial() ? inertial_.filter().Place() : motion_.Place();
+}
+
+void CarriedMotion::Hear(const PositionStatement& said) {
+  if (inertial()) {
+    inertial_.filter().Hear(said);
+  } else {
+    motion_.Hear(said);
+  }
+}
+
+}  // namespace lodemark

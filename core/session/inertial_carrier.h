@@ -1,0 +1,52 @@
+// What a phone's inertial sensors make of the motion: turned by what they felt, then carried by
+// them; held by what a phone at rest or in a vehicle cannot do.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+
+#include "core/fusion/inertial_alignment.h"
+#include "core/fusion/inertial_filter.h"
+#include "core/fusion/motion_filter.h"
+#include "core/session/sensor_buffer.h"
+
+namespace lodemark {
+
+// Times are the session's.
+class InertialCarrier {
+ public:
+  explicit InertialCarrier(const SensorBuffer* sensors) : sensors_(sensors) {}
+
+  bool carries() const { return filter_.started(); }
+  const InertialFilter& filter() const { return filter_; }
+  InertialFilter& filter() { return filter_; }
+
+  // Notes the motion of a moment without which it cannot begin to carry; begins where it can.
+  // measured: the velocity rests on Doppler or phase of that moment.
+  void Note(std::int64_t time_ns, const MotionFilter& motion, bool measured);
+
+  // Carries from one moment to the next. False, and carrying no more, where the sensors do not
+  // reach; the state is then that of the first moment.
+  bool Advance(std::int64_t from_ns, std::int64_t to_ns,
+               std::span<const RangeRateObservation> rates,
+               std::span<const RangeChangeObservation> changes, MotionVerdicts* verdicts);
+
+  void Forget();
+
+ private:
+  void HearRest(std::span<const InertialSample> samples, double seconds);
+  void HearVehicle(std::span<const InertialSample> samples, std::int64_t from_ns,
+                   std::int64_t to_ns);
+
+  const SensorBuffer* sensors_;
+  InertialFilter filter_;
+  InertialAlignment alignment_;
+  // Of the last moment whose velocity was measured.
+  std::int64_t noted_ns_ = 0;
+  Eigen::Vector3d noted_velocity_in_ecef_mps_ = Eigen::Vector3d::Zero();
+  double noted_variance_m2ps2_ = 0.0;
+  int unlike_vehicle_ = 0;  // times in a row
+};
+
+}  // namespace lodemark
