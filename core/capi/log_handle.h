@@ -3,17 +3,22 @@
 
 #include <deque>
 #include <utility>
+#include <variant>
 
 #include "core/logs/gnss_logger.h"
+#include "core/logs/ubx.h"
 #include "lodemark/lodemark.h"
 
 struct lodemark_log {
-  explicit lodemark_log(lodemark::GnssLoggerReader opened) : reader(std::move(opened)) {}
+  using Reader = std::variant<lodemark::GnssLoggerReader, lodemark::UbxReader>;
 
-  lodemark::GnssLoggerReader reader;
-  lodemark::GnssLoggerRecord record;
+  explicit lodemark_log(Reader opened) : reader(std::move(opened)) {}
+
+  Reader reader;
+  lodemark::GnssLoggerRecord record;  // of a phone's text
+  lodemark::UbxRecord ubx_record;     // of a u-blox receiver's file
   // Messages that wait for the first epoch with a GPS time.
   std::deque<lodemark::LoggedNavigationMessage> messages;
-  bool epoch_waits = false;  // record is an epoch that found the session's queue full
+  bool epoch_waits = false;  // the record is an epoch that found the session's queue full
   bool epoch_seen = false;
 };

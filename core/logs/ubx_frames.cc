@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -255,6 +257,8 @@ const Status& UbxFrameReader::status() const { return impl_->source.status(); }
 double UbxFrameReader::progress() const { return impl_->source.progress(); }
 
 bool BeginsLikeUbx(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
   Result<TextSource> source = TextSource::Open(path);
   if (!source) return false;
   std::string head(kSniffed, '\0');

@@ -50,7 +50,7 @@ class UbxFrameReader {
   std::unique_ptr<Impl> impl_;
 };
 
-// Whether a UBX frame is among the first bytes of a file.
+// Whether a UBX frame is among the first bytes of a file. Never of a pipe, which can be read once.
 bool BeginsLikeUbx(const std::string& path);
 
 // "byte 1234: what", as problems of a file without lines are told.

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "lodemark/lodemark.h"
+#include "test/unit/logs/ubx_bytes_of.h"
 
 namespace lodemark::test {
 namespace {
@@ -108,6 +109,38 @@ TEST(Log, IsNotOpenedWhereThereIsNone) {
   const SessionHandle session = OpenSession();
   EXPECT_EQ(lodemark_log_push_next(open.get(), nullptr), LODEMARK_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(lodemark_log_push_next(nullptr, session.get()), LODEMARK_ERROR_INVALID_ARGUMENT);
+}
+
+TEST(Log, MayBeOfAUbloxReceiver) {
+  std::string bytes = "$GPTXT,no position in this*5D\r\n";
+  for (int i = 0; i < 3; ++i) bytes += Rawx(408'639.75 + i, {RawxSignal()});
+  const LogFile file(bytes + Sfrbx(0, 7, 0, 0, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
+  const Log log = Open(file.path());
+  const SessionHandle session = OpenSession(2);
+  EXPECT_EQ(lodemark_log_push_next(log.get(), session.get()), LODEMARK_OK);
+  EXPECT_EQ(lodemark_log_push_next(log.get(), session.get()), LODEMARK_OK);
+  EXPECT_EQ(lodemark_log_push_next(log.get(), session.get()), LODEMARK_ERROR_QUEUE_FULL);
+  std::int64_t last_gps_ns = 0;
+  for (int epochs = 0; epochs < 3; ++epochs) {
+    EXPECT_EQ(lodemark_session_process(session.get()), LODEMARK_NO_POSITION);
+    lodemark_estimate estimate = {};
+    estimate.struct_size = sizeof estimate;
+    EXPECT_EQ(lodemark_session_estimate(session.get(), &estimate), LODEMARK_NO_POSITION);
+    last_gps_ns = estimate.time_gps_ns;
+    if (epochs == 0) {
+      EXPECT_EQ(lodemark_log_push_next(log.get(), session.get()), LODEMARK_OK);
+    }
+  }
+  EXPECT_EQ(last_gps_ns, 2381LL * 604'800'000'000'000 + 408'641'750'000'000);
+  EXPECT_EQ(lodemark_log_push_next(log.get(), session.get()), LODEMARK_END_OF_LOG);
+}
+
+TEST(Log, OfAUbloxReceiverWithoutRawMeasurementsIsBad) {
+  const LogFile file(UbxMessage(0x01, 0x07, std::string(92, '\0')) + "mud");
+  const Log log = Open(file.path());
+  const SessionHandle session = OpenSession();
+  EXPECT_EQ(lodemark_log_push_next(log.get(), session.get()), LODEMARK_ERROR_BAD_DATA);
+  EXPECT_NE(std::string(lodemark_last_error()).find("byte 100"), std::string::npos);
 }
 
 }  // namespace

@@ -963,9 +963,12 @@ LODEMARK_API lodemark_status lodemark_session_events(const lodemark_session* ses
 
 LODEMARK_API lodemark_status lodemark_session_clear_events(lodemark_session* session);
 
-/* Log: what a phone recorded, pushed as if it came from the phone. */
+/* Log: what a phone or a receiver recorded, pushed as if it came from there. */
 
-/* A GnssLogger text of any version, plain or gzip, read as far as it was pushed. */
+/*
+ * A GnssLogger text of any version, or a file of a u-blox receiver (UBX-RXM-RAWX and -SFRBX), plain
+ * or gzip, read as far as it was pushed.
+ */
 typedef struct lodemark_log lodemark_log;
 
 /* Opens a log file, UTF-8 path, into *log; after an error *log is NULL. Any file is safe. */
@@ -976,8 +979,8 @@ LODEMARK_API void lodemark_log_close(lodemark_log* log);
 /*
  * Pushes the next epoch of the log, and first the broadcast messages before it. A session based on
  * time since boot takes the time from the clock's elapsed realtime, or where the log lacks it from
- * the receiver's hardware clock. LODEMARK_END_OF_LOG after the last epoch. After
- * LODEMARK_ERROR_QUEUE_FULL the same epoch comes again, after any other refusal the next one.
+ * the receiver's hardware clock (u-blox: its GPS time). LODEMARK_END_OF_LOG after the last epoch.
+ * After LODEMARK_ERROR_QUEUE_FULL the same epoch comes again, after any other refusal the next one.
  * LODEMARK_ERROR_BAD_DATA at the end of a file that held no epoch, or that is cut short.
  */
 LODEMARK_API lodemark_status lodemark_log_push_next(lodemark_log* log, lodemark_session* session);
