@@ -15,6 +15,7 @@
 #include "tools/lodemark/replay_options.h"
 #include "tools/lodemark/replay_orbits.h"
 #include "tools/lodemark/replay_photos.h"
+#include "tools/lodemark/replay_sensors.h"
 #include "tools/lodemark/replay_session.h"
 #include "tools/lodemark/replay_summary.h"
 #include "tools/lodemark/run_writer.h"
@@ -67,6 +68,10 @@ ordered_json RunJson(const ReplayOptions& options, const ReplayInputs& inputs) {
   for (const std::string& path : inputs.navigation) add("navigation", path);
   for (const std::string& path : inputs.precise_orbits) add("precise_orbits", path);
   if (!options.request.map.empty()) add("map", options.request.map);
+  for (const SensorFile& sensors : inputs.sensors) {
+    const bool named = sensors.path == inputs.measurements;
+    if (UsesSensors(options) && !named) add(sensors.role.c_str(), sensors.path);
+  }
   if (!inputs.photos.list.empty()) {
     add("photographs", inputs.photos.list);
     add("camera", inputs.photos.camera);
@@ -91,8 +96,28 @@ ordered_json PhotosJson(const PhotoCounts& counts, const ReplaySummary& summary)
   return json;
 }
 
+ordered_json SensorsJson(const SensorCounts& counts) {
+  return {{"accelerometer", counts.pushed[LODEMARK_SENSOR_ACCELEROMETER]},
+          {"gyroscope", counts.pushed[LODEMARK_SENSOR_GYROSCOPE]},
+          {"barometer", counts.pushed[LODEMARK_SENSOR_BAROMETER]},
+          {"vehicle", counts.pushed[LODEMARK_SENSOR_VEHICLE]},
+          {"late", counts.late},
+          {"without_time", counts.without_time},
+          {"refused", counts.refused}};
+}
+
+std::string SensorsText(const SensorCounts& counts) {
+  const std::string total = GroupDigits(counts.total());
+  return Format("%12s", total.c_str()) +
+         "   of sensors: " + GroupDigits(counts.pushed[LODEMARK_SENSOR_ACCELEROMETER]) +
+         " accelerometer, " + GroupDigits(counts.pushed[LODEMARK_SENSOR_GYROSCOPE]) +
+         " gyroscope, " + GroupDigits(counts.pushed[LODEMARK_SENSOR_BAROMETER]) + " barometer, " +
+         GroupDigits(counts.pushed[LODEMARK_SENSOR_VEHICLE]) + " vehicle\n";
+}
+
 ordered_json SummaryJson(const ReplayInputs& inputs, const MeasurementSource& source,
-                         const std::optional<PhotoSource>& photos, const ReplaySummary& summary,
+                         const std::optional<PhotoSource>& photos,
+                         const std::optional<SensorSource>& sensors, const ReplaySummary& summary,
                          double elapsed_s) {
   const auto accuracy = [](const std::optional<double>& median, const std::optional<double>& p95) {
     return median ? ordered_json{{"median", *median}, {"p95", *p95}} : ordered_json();
@@ -130,6 +155,7 @@ ordered_json SummaryJson(const ReplayInputs& inputs, const MeasurementSource& so
                           {"broadcast_messages_taken", counts.broadcast_taken},
                           {"broadcast_messages_refused", counts.broadcast_refused}};
   if (photos) json["photographs"] = PhotosJson(photos->counts(), summary);
+  if (sensors) json["sensors"] = SensorsJson(sensors->counts());
   json["timing"] = {
       {"elapsed_s", elapsed_s},
       {"ms_per_epoch",
@@ -155,12 +181,19 @@ Result<bool> ReplayOne(ReplaySession* session, RunWriter* writer, ReplaySummary*
   return true;
 }
 
-Status ReplayAll(MeasurementSource* source, PhotoSource* photos, ReplaySession* session,
+// What is replayed beside the measurements; null where there is none.
+struct Beside {
+  PhotoSource* photos = nullptr;
+  SensorSource* sensors = nullptr;
+};
+
+Status ReplayAll(MeasurementSource* source, const Beside& beside, ReplaySession* session,
                  RunWriter* writer, ReplaySummary* summary) {
   ProgressBar progress("Replaying", StderrIsTerminal());
   // Photographs up to a time, one by one, each taken before the epoch that waits after it.
   const auto replay_photos = [&](std::int64_t until_gps_ns) -> Status {
-    while (photos != nullptr && writer->ok() && photos->PushNext(until_gps_ns, session)) {
+    while (beside.photos != nullptr && writer->ok() &&
+           beside.photos->PushNext(until_gps_ns, session)) {
       const Result<bool> processed = ReplayOne(session, writer, summary);
       if (!processed) return processed.error();
       progress.Update(source->progress());
@@ -168,6 +201,7 @@ Status ReplayAll(MeasurementSource* source, PhotoSource* photos, ReplaySession* 
     return {};
   };
   while (source->PushNext(session)) {
+    if (beside.sensors != nullptr) beside.sensors->PushUntil(source->time_gps_ns(), session);
     const Status before = replay_photos(source->time_gps_ns());
     if (!before.ok()) return before;
     for (;;) {
@@ -252,6 +286,13 @@ int RunReplay(const ReplayOptions& options) {
     }
   }
 
+  std::optional<SensorSource> sensors;
+  if (UsesSensors(options)) {
+    Result<SensorSource> read = SensorSource::Open(inputs->sensors, &remarks.sentences);
+    if (!read) return ReportError(read.error());
+    sensors = std::move(*read);
+  }
+
   RunWriter writer;
   const Status opened = writer.Open(options.out, photos.has_value());
   if (!opened.ok()) return ReportError(opened.error());
@@ -263,17 +304,20 @@ int RunReplay(const ReplayOptions& options) {
 
   ReplaySummary summary;
   const Status replayed =
-      ReplayAll(source->get(), photos ? &*photos : nullptr, &*session, &writer, &summary);
+      ReplayAll(source->get(), {photos ? &*photos : nullptr, sensors ? &*sensors : nullptr},
+                &*session, &writer, &summary);
   if (!replayed.ok()) return ReportError(replayed.error());
 
   const double elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
-  const ordered_json summary_json = SummaryJson(*inputs, **source, photos, summary, elapsed_s);
+  const ordered_json summary_json =
+      SummaryJson(*inputs, **source, photos, sensors, summary, elapsed_s);
   const Status written = write("summary.json", summary_json);
   if (!written.ok()) return ReportError(written.error());
   if (options.json) {
     PrintResult(JsonText(summary_json));
   } else if (summary.epochs() > 0) {
     PrintResult(inputs->name + "\n" + SummaryText(summary, elapsed_s, StdoutIsTerminal()) +
+                (sensors ? "  samples    " + SensorsText(sensors->counts()) : "") +
                 "  written to " + options.out +
                 ": trajectory.csv, trajectory.tum, satellites.csv, " +
                 (photos ? "landmarks.csv, " : "") + "events.jsonl, summary.json, run.json\n");
@@ -287,6 +331,9 @@ int RunReplay(const ReplayOptions& options) {
     remarks.Add(GroupDigits(photos->counts().left_out) + " of " +
                 GroupDigits(photos->counts().listed) +
                 " photographs left out, the first: " + photos->counts().first_problem);
+  }
+  if (sensors) {
+    for (std::string& sentence : sensors->Remarks()) remarks.Add(std::move(sentence));
   }
   if (verdict.ok() || summary.epochs() > 0) {
     for (const std::string& sentence : remarks.sentences) PrintMessage(sentence);

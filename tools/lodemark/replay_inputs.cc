@@ -94,6 +94,13 @@ Status FromFolder(const std::string& folder, ReplayInputs* inputs) {
   inputs->remarks = recording->problems;
   inputs->navigation = recording->Files("navigation");
   inputs->precise_orbits = recording->Files("precise_orbits");
+  for (const char* role : {"imu", "odometry"}) {
+    const auto stated = recording->columns.find(role);
+    const std::string columns = stated != recording->columns.end() ? stated->second : "";
+    for (const std::string& path : recording->Files(role)) {
+      inputs->sensors.push_back({role, path, columns});
+    }
+  }
   const struct {
     const char* role;
     Kind kind;
@@ -188,6 +195,11 @@ Result<ReplayInputs> FindReplayInputs(const ReplayRequest& request) {
     inputs.precise_orbits.push_back(path);
   }
   if (request.broadcast_only) inputs.precise_orbits.clear();
+  std::error_code ignored;
+  // A pipe cannot be read a second time for its samples.
+  if (inputs.kind == Kind::kGnssLog && fs::is_regular_file(inputs.measurements, ignored)) {
+    inputs.sensors.push_back({"gnss_log", inputs.measurements, ""});
+  }
   const Status photos = FindPhotos(request, &inputs);
   if (!photos.ok()) return photos.error();
   return inputs;

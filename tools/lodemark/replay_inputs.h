@@ -6,6 +6,7 @@
 
 #include "core/base/result.h"
 #include "tools/lodemark/replay_photos.h"
+#include "tools/lodemark/replay_sensors.h"
 
 namespace lodemark {
 
@@ -28,6 +29,7 @@ struct ReplayInputs {
   std::string measurements;
   std::vector<std::string> navigation;
   std::vector<std::string> precise_orbits;
+  std::vector<SensorFile> sensors;   // what may hold samples of sensors
   PhotoFiles photos;                 // where a map is named and the recording has any
   std::vector<std::string> remarks;  // what the user should know, one sentence each
 };

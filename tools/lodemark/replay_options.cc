@@ -22,12 +22,14 @@ static_assert(LODEMARK_SCHEME_VISION == 3 && LODEMARK_SCHEME_GNSS == 4);
 
 // Photographs and satellites as far as there are any, filtered over time, forwards or both ways.
 constexpr const char* kFilterScheme = "ekf";
+constexpr const char* kInertialScheme = "ekf-imu";
 constexpr const char* kSmootherScheme = "batch";
 
-constexpr const char* kAllSchemes = "joint, tight, tight-diagonal, vision, gnss, ekf, batch";
+constexpr const char* kAllSchemes =
+    "joint, tight, tight-diagonal, vision, gnss, ekf, ekf-imu, batch";
 
 // What the design names and a later version will do.
-const std::vector<std::string> kLaterSchemes = {"ekf-imu", "window"};
+const std::vector<std::string> kLaterSchemes = {"window"};
 
 // In an option of the C interface zero stands for the default; this is as good as zero.
 constexpr double kAlmostZero = 1e-9;
@@ -76,8 +78,8 @@ void DeclareReplayOptions(CLI::App& command, ReplayOptions* options) {
   command
       .add_option("--scheme", options->scheme,
                   "joint, tight, tight-diagonal, vision or gnss, each moment for itself; ekf, "
-                  "filtered over time; batch, the same forwards and back. Joint with a map, else "
-                  "gnss")
+                  "filtered over time; ekf-imu, the same with samples of sensors; batch, ekf "
+                  "forwards and back. Joint with a map, else gnss")
       ->group(estimation);
   command.add_option("--systems", options->systems, "Only these: letters of GRECJIS")
       ->group(estimation);
@@ -133,6 +135,8 @@ std::string SchemeOf(const ReplayOptions& options) {
   return options.request.map.empty() ? "gnss" : "joint";
 }
 
+bool UsesSensors(const ReplayOptions& options) { return options.scheme == kInertialScheme; }
+
 Result<lodemark_session_options> SessionOptionsOf(const ReplayOptions& options) {
   const auto usage = [](std::string text) {
     return Error{ErrorCode::kInvalidArgument, std::move(text)};
@@ -144,7 +148,7 @@ Result<lodemark_session_options> SessionOptionsOf(const ReplayOptions& options) 
                  kAllSchemes);
   }
   std::string scheme = SchemeOf(options);
-  const bool filters = scheme == kFilterScheme;
+  const bool filters = scheme == kFilterScheme || scheme == kInertialScheme;
   const bool smooths = scheme == kSmootherScheme;
   if (filters || smooths) scheme = request.map.empty() ? "gnss" : "joint";
   if (std::find(kSchemes.begin(), kSchemes.end(), scheme) == kSchemes.end()) {

@@ -43,6 +43,9 @@ void DeclareReplayOptions(CLI::App& command, ReplayOptions* options);
 // The one asked for, or the one that the inputs suggest.
 std::string SchemeOf(const ReplayOptions& options);
 
+// Whether samples of inertial sensors, a barometer or a vehicle are to be heard.
+bool UsesSensors(const ReplayOptions& options);
+
 // Fails with one sentence where the options make no sense, or none in this version.
 Result<lodemark_session_options> SessionOptionsOf(const ReplayOptions& options);
 

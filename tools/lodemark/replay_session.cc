@@ -218,6 +218,11 @@ Status ReplaySession::Push(const lodemark_frame& frame, const lodemark_lens& len
       lodemark_session_push_image(session_.get(), &frame, &lens, pixels.data(), lens.width_px));
 }
 
+Status ReplaySession::Push(std::span<const lodemark_sensor_sample> samples) {
+  return ToStatus(lodemark_session_push_sensors(session_.get(), samples.data(),
+                                                static_cast<std::int32_t>(samples.size())));
+}
+
 Result<bool> ReplaySession::Process() {
   event_count_ = 0;
   satellite_count_ = 0;

@@ -33,6 +33,8 @@ class ReplaySession {
   Status Push(const LoggedNavigationMessage& message);
   // Photographs are looked up in it from now on.
   Status UseMap(const std::string& path);
+  // Of any sensors, in the order of their times.
+  Status Push(std::span<const lodemark_sensor_sample> samples);
   // A grey photograph of the lens's size, rows one after another.
   Status Push(const lodemark_frame& frame, const lodemark_lens& lens,
               const std::vector<std::uint8_t>& pixels);
