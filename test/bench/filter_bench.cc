@@ -6,7 +6,9 @@
 #include <memory>
 #include <vector>
 
+#include "core/fusion/inertial_filter.h"
 #include "core/fusion/motion_filter.h"
+#include "test/unit/fusion/inertial_scene.h"
 #include "test/unit/fusion/motion_scene.h"
 #include "test/unit/session/filter_scene.h"
 
@@ -34,6 +36,29 @@ void TimeUpdate(benchmark::State& state) {
   }
 }
 BENCHMARK(TimeUpdate);
+
+// The same by an inertial sensor of a hundred samples a second.
+void InertialUpdate(benchmark::State& state) {
+  const InertialScene scene;
+  Random random(4);
+  std::vector<RangeRateObservation> rates;
+  while (rates.size() < kSatellites) {
+    for (const RangeRateObservation& rate : scene.RatesAt(1.0, 0.05, &random)) {
+      if (rates.size() < kSatellites) rates.push_back(rate);
+    }
+  }
+  const std::vector<InertialSample> samples = scene.Felt(0.0, 1.0);
+  InertialFilter started;
+  started.Start(scene.StateAt(0.0), Eigen::Matrix<double, 6, 6>::Identity(),
+                1e-4 * Eigen::Matrix<double, 9, 9>::Identity());
+  MotionVerdicts verdicts;
+  for (auto _ : state) {
+    InertialFilter filter = started;
+    filter.Advance(samples, rates, {}, &verdicts);
+    benchmark::DoNotOptimize(filter);
+  }
+}
+BENCHMARK(InertialUpdate);
 
 // With and without the filter, to compare; the satellites of three systems in view.
 void SessionEpoch(benchmark::State& state) {

@@ -18,6 +18,8 @@ namespace lodemark::test {
 
 class InertialScene {
  public:
+  explicit InertialScene(const Geodetic& origin = {0.83, 0.23, 120.0}) : origin_(origin) {}
+
   Eigen::Vector3d PlaceAt(double seconds) const {
     const Eigen::Vector3d enu_m(10.0 * seconds + 15.0 * std::sin(0.3 * seconds),
                                 40.0 * std::sin(0.15 * seconds), 2.0 * std::sin(0.05 * seconds));
@@ -103,7 +105,7 @@ class InertialScene {
   static constexpr double kStep_s = 1e-3;
   static constexpr double kSamplesPerSecond = 100.0;
 
-  Geodetic origin_{0.83, 0.23, 120.0};
+  Geodetic origin_;
   Eigen::Vector3d origin_in_ecef_ = EcefFromGeodetic(origin_);
   Eigen::Matrix3d enu_from_ecef_ = EnuFromEcefRotation(origin_);
   Eigen::Quaterniond vehicle_from_sensor_ = Turn(Eigen::Vector3d(0.4, -1.1, 0.7));

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <random>
@@ -81,6 +82,7 @@ class SessionScene {
   }
 
   Eigen::Vector3d PlaceAt(double seconds) const {
+    if (path) return path(seconds);
     return EcefFromGeodetic(place) +
            EnuFromEcefRotation(place).transpose() * velocity_enu_mps * seconds;
   }
@@ -169,6 +171,7 @@ class SessionScene {
   std::map<System, double> bias_of;  // metres
   Geodetic place = {0.84, 0.2, 250.0};
   Eigen::Vector3d velocity_enu_mps = Eigen::Vector3d::Zero();
+  std::function<Eigen::Vector3d(double)> path;  // earth-fixed by seconds, in place of these two
   double clock_m = 30'000.0;
 };
 

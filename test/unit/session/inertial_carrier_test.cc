@@ -1,0 +1,115 @@
+// The filter with a phone's inertial sensors, through the session: a bending drive with noise.
+#include "core/session/inertial_carrier.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "test/unit/fusion/inertial_scene.h"
+#include "test/unit/session/filter_scene.h"
+
+namespace lodemark::test {
+namespace {
+
+class InertialCarrierTest : public ::testing::Test {
+ protected:
+  InertialCarrierTest() : filter_scene_(Eigen::Vector3d::Zero()) {
+    const InertialScene scene = scene_;
+    filter_scene_.scene.path = [scene](double seconds) { return scene.PlaceAt(seconds); };
+  }
+
+  // What the phone's sensors say from one second to the next, with noise and biases.
+  std::vector<SensorSample> Samples(int from_s, bool exchanged = false) {
+    std::vector<SensorSample> samples;
+    std::vector<InertialSample> felt = scene_.Felt(from_s, from_s + 1);
+    felt.pop_back();
+    for (const InertialSample& sample : felt) {
+      Eigen::Vector3d force = sample.specific_force_mps2 + Eigen::Vector3d(0.1, -0.1, 0.05);
+      Eigen::Vector3d rate = sample.turn_rate_radps + Eigen::Vector3d(0.02, -0.01, 0.01);
+      for (int axis = 0; axis < 3; ++axis) {
+        force[axis] += random_.Gaussian(0.0, 0.1);
+        rate[axis] += random_.Gaussian(0.0, 0.003);
+      }
+      if (exchanged) {
+        std::swap(force.x(), force.y());
+        std::swap(rate.x(), rate.y());
+      }
+      const std::int64_t time_ns = kSceneStart_ns + sample.time_ns;
+      samples.push_back({SensorKind::kAccelerometer, time_ns, force});
+      samples.push_back({SensorKind::kGyroscope, time_ns, rate});
+    }
+    return samples;
+  }
+
+  std::vector<ObservationEpoch> DriveWithOutage() const {
+    std::vector<ObservationEpoch> drive = filter_scene_.Drive(90);
+    for (std::size_t i = 60; i < 75; ++i) drive[i].signals.clear();
+    return drive;
+  }
+
+  enum class Sensors : std::uint8_t { kNone, kTrue, kExchanged, kUntilHalf };
+  std::vector<SessionEstimate> Run(Sensors sensors) {
+    const std::vector<ObservationEpoch> drive = DriveWithOutage();
+    const std::unique_ptr<Session> session = filter_scene_.scene.Open();
+    std::vector<SessionEstimate> estimates;
+    for (std::size_t i = 0; i < drive.size(); ++i) {
+      const bool pushes = sensors != Sensors::kNone && (sensors != Sensors::kUntilHalf || i < 50);
+      if (pushes && i > 0) {
+        EXPECT_TRUE(
+            session->PushSensors(Samples(static_cast<int>(i) - 1, sensors == Sensors::kExchanged))
+                .ok());
+      }
+      estimates.push_back(ProcessEpoch(session.get(), drive[i]));
+    }
+    return estimates;
+  }
+  double Error(const std::vector<SessionEstimate>& estimates, int epoch) const {
+    return filter_scene_.HorizontalError(estimates[static_cast<std::size_t>(epoch)], epoch);
+  }
+
+  FilterScene filter_scene_;
+  InertialScene scene_{filter_scene_.scene.place};
+  Random random_{17};
+};
+
+TEST_F(InertialCarrierTest, FollowsTheBendsWithoutSatellites) {
+  const std::vector<SessionEstimate> alone = Run(Sensors::kNone);
+  const std::vector<SessionEstimate> carried = Run(Sensors::kTrue);
+  for (int i = 60; i < 75; ++i) {
+    const SessionEstimate& estimate = carried[static_cast<std::size_t>(i)];
+    ASSERT_EQ(estimate.status, EstimateStatus::kFix) << i;
+    EXPECT_LT(Error(carried, i), 3.0 * estimate.accuracy_m) << i;
+  }
+  EXPECT_LT(Error(carried, 74), 10.0);
+  EXPECT_LT(Error(carried, 74), 0.3 * Error(alone, 74));
+  EXPECT_LT(carried[74].accuracy_m, 0.5 * alone[74].accuracy_m);
+  EXPECT_LT(Error(carried, 89), 3.0);
+}
+
+// Two axes exchanged, as no phone has them: no worse than without.
+TEST_F(InertialCarrierTest, ASensorThatMovesOtherwiseDoesNoHarm) {
+  const std::vector<SessionEstimate> alone = Run(Sensors::kNone);
+  const std::vector<SessionEstimate> misled = Run(Sensors::kExchanged);
+  double square_alone = 0.0;
+  double square_misled = 0.0;
+  for (int i = 20; i < 60; ++i) {
+    square_alone += Error(alone, i) * Error(alone, i);
+    square_misled += Error(misled, i) * Error(misled, i);
+  }
+  EXPECT_LT(square_misled, 1.5 * square_alone);
+  EXPECT_LT(Error(misled, 89), Error(alone, 89) + 1.0);
+}
+
+TEST_F(InertialCarrierTest, GoesOnWhereTheSamplesEnd) {
+  const std::vector<SessionEstimate> alone = Run(Sensors::kNone);
+  const std::vector<SessionEstimate> halfway = Run(Sensors::kUntilHalf);
+  EXPECT_EQ(halfway[59].status, EstimateStatus::kFix);
+  EXPECT_LT(Error(halfway, 59), Error(alone, 59) + 1.0);
+  EXPECT_LT(Error(halfway, 89), Error(alone, 89) + 1.0);
+}
+
+}  // namespace
+}  // namespace lodemark::test
