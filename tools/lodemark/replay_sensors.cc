@@ -19,6 +19,9 @@ constexpr std::int64_t kBeforeFirst_ns = 10'000'000'000;
 // was measured before.
 constexpr std::int64_t kReordered_ns = 500'000'000;
 
+// Far more than any sensors measure in that time.
+constexpr std::size_t kMostWaiting = 20'000;
+
 bool Earlier(const lodemark_sensor_sample& a, const lodemark_sensor_sample& b) {
   return a.time_ns < b.time_ns;
 }
@@ -43,15 +46,19 @@ Result<SensorSource> SensorSource::Open(const std::vector<SensorFile>& files,
 }
 
 void SensorSource::ReadUntil(std::int64_t until_gps_ns, Reading* reading) {
+  auto& latest_ns = reading->latest_ns;
   lodemark_sensor_sample sample = {};
-  while (!reading->ended && reading->latest_ns <= until_gps_ns) {
+  while (!reading->ended && *std::min_element(latest_ns.begin(), latest_ns.end()) <= until_gps_ns) {
     reading->ended = !reading->stream->Next(&sample);
     if (reading->ended) return;
-    reading->latest_ns = sample.time_ns;
+    latest_ns[reading->turn] = sample.time_ns;
+    reading->turn = (reading->turn + 1) % latest_ns.size();
     if (sample.time_ns <= heard_gps_ns_) {
       if (heard_gps_ns_ > *begin_gps_ns_) ++counts_.late;
-    } else {
+    } else if (waiting_.size() < kMostWaiting) {
       waiting_.push_back(sample);
+    } else if (counts_.refused++ == 0) {
+      counts_.first_refusal = "samples have times in no order";
     }
   }
 }

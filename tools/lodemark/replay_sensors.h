@@ -61,7 +61,9 @@ class SensorSource {
     SensorFile file;
     std::unique_ptr<SensorStream> stream;
     bool ended = false;
-    std::int64_t latest_ns = 0;  // of its samples so far
+    // Of its latest samples in turn: all of them are ahead where it is, one may be a stray.
+    std::array<std::int64_t, 8> latest_ns = {};
+    std::size_t turn = 0;
   };
 
   SensorSource() = default;
