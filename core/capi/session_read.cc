@@ -60,13 +60,17 @@ static_assert(LODEMARK_EVENT_PHOTO_CONTRADICTED == static_cast<int>(EventKind::k
 static_assert(LODEMARK_EVENT_PHOTO_FAILED == static_cast<int>(EventKind::kPhotoFailed));
 static_assert(LODEMARK_EVENT_MAP_DATUM == static_cast<int>(EventKind::kMapDatum));
 static_assert(LODEMARK_EVENT_SENSOR_DROPPED == static_cast<int>(EventKind::kSensorDropped));
+static_assert(LODEMARK_EVENT_FILTER_RESTARTED == static_cast<int>(EventKind::kFilterRestarted));
+static_assert(LODEMARK_EVENT_INERTIAL_ALIGNED == static_cast<int>(EventKind::kInertialAligned));
+static_assert(LODEMARK_EVENT_INERTIAL_LOST == static_cast<int>(EventKind::kInertialLost));
 
 static_assert(LODEMARK_PHOTO_NONE == static_cast<int>(PhotoOutcome::kNone));
 static_assert(LODEMARK_PHOTO_USED == static_cast<int>(PhotoOutcome::kUsed));
 static_assert(LODEMARK_PHOTO_NOT_RECOGNISED == static_cast<int>(PhotoOutcome::kNotRecognised));
 static_assert(LODEMARK_PHOTO_DISAGREEING == static_cast<int>(PhotoOutcome::kDisagreeing));
 static_assert(LODEMARK_PHOTO_CONTRADICTED == static_cast<int>(PhotoOutcome::kContradicted));
-static_assert(LODEMARK_SOURCE_GNSS == kSourceGnss && LODEMARK_SOURCE_VISION == kSourceVision);
+static_assert(LODEMARK_SOURCE_GNSS == kSourceGnss && LODEMARK_SOURCE_VISION == kSourceVision &&
+              LODEMARK_SOURCE_INERTIAL == kSourceInertial);
 
 std::int32_t ToVerdict(LandmarkVerdict verdict) {
   switch (verdict) {

@@ -168,10 +168,15 @@ void EpochFilter::Doubt(double likelier) {
   lost_ = std::max(0.0, lost_ + share * (likelier - kLikelierAnyway));
 }
 
+void EpochFilter::BeginAnew() {
+  filter_.Stop();
+  ++restarts_;
+}
+
 bool EpochFilter::ProvesLost(double likelier) {
   Doubt(likelier);
   if (lost_ < kProof) return false;
-  filter_.Stop();
+  BeginAnew();
   return true;
 }
 
@@ -190,7 +195,7 @@ void EpochFilter::HearEpoch(const GnssEpochModel& model, const PointEstimate& po
   if (verdicts.empty()) return;
   if (Unexplained(verdicts)) {
     unexplained_s_ += seconds_;
-    if (unexplained_s_ > kLongestUnexplained_s) filter_.Stop();
+    if (unexplained_s_ > kLongestUnexplained_s) BeginAnew();
     return;
   }
   unexplained_s_ = 0.0;

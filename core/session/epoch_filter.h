@@ -28,6 +28,8 @@ class EpochFilter {
 
   bool started() const { return filter_.started(); }
   bool inertial() const { return filter_.inertial(); }
+  // How often it has begun anew as its place fitted no more.
+  int restarts() const { return restarts_; }
   std::int64_t time_ns() const { return time_ns_; }
   Eigen::Vector3d position_in_ecef() const { return filter_.position_in_ecef(); }
   Eigen::Vector3d velocity_in_ecef_mps() const { return filter_.velocity_in_ecef_mps(); }
@@ -69,6 +71,7 @@ class EpochFilter {
 
  private:
   void Doubt(double likelier);
+  void BeginAnew();
   void Move(std::int64_t time_ns);
   void Start(const Eigen::Vector3d& position_in_ecef, const Eigen::Matrix3d& covariance_enu_m2);
   void MakeRoomForAStep();
@@ -86,10 +89,11 @@ class EpochFilter {
   std::vector<RangeRateObservation> rates_;
   std::vector<RangeChangeObservation> changes_;
   MotionVerdicts verdicts_;
-  std::int64_t time_ns_ = 0;    // of the state
-  std::int64_t epoch_ns_ = 0;   // of the last epoch
-  std::int64_t photo_ns_ = 0;   // of the last photograph heard
-  double seconds_ = 0.0;        // between the last two epochs
+  std::int64_t time_ns_ = 0;   // of the state
+  std::int64_t epoch_ns_ = 0;  // of the last epoch
+  std::int64_t photo_ns_ = 0;  // of the last photograph heard
+  double seconds_ = 0.0;       // between the last two epochs
+  int restarts_ = 0;
   double silent_s_ = 0.0;       // since a velocity was measured
   double unexplained_s_ = 0.0;  // for so long most ranges have fitted nothing
   double lost_ = 0.0;           // how much likelier it is by now to be elsewhere (log)

@@ -110,6 +110,21 @@ void EventLog::NoteOutcome(const SessionEstimate& estimate) {
   ever_fixed_ = ever_fixed_ || fix;
 }
 
+void EventLog::NoteFilter(int restarts, bool inertial) {
+  if (restarts > restarts_before_) {
+    Add(EventKind::kFilterRestarted, restarts,
+        "the place carried on fits the measurements no more; the filter begins anew");
+  }
+  if (inertial != inertial_before_) {
+    Add(inertial ? EventKind::kInertialAligned : EventKind::kInertialLost, 0.0,
+        inertial ? "it is known how the inertial sensors are turned; they carry the filter"
+                 : "inertial sensors carry the filter no more: their samples end, or tell of "
+                   "another motion");
+  }
+  restarts_before_ = restarts;
+  inertial_before_ = inertial;
+}
+
 void EventLog::NotePhoto(const SessionEstimate& estimate) {
   if (estimate.photo == PhotoOutcome::kNone) return;
   const bool contradicted = estimate.photo == PhotoOutcome::kContradicted;

@@ -28,6 +28,8 @@ class EventLog {
   void NoteDuplicate();
   // To be called once an epoch that was not dropped; of it follow first fix and fix lost.
   void NoteOutcome(const SessionEstimate& estimate);
+  // restarts: how often the filter has begun anew.
+  void NoteFilter(int restarts, bool inertial);
   // At most one event per satellite.
   void NoteEphemerisMissing(const SatelliteStatus& satellite);
 
@@ -51,6 +53,8 @@ class EventLog {
   std::int64_t time_gps_ns_ = 0;
   bool fix_before_ = false;  // at the epoch before
   bool ever_fixed_ = false;
+  int restarts_before_ = 0;
+  bool inertial_before_ = false;
   bool contradicted_before_ = false;
   std::string last_failure_;
   std::bitset<kSensorKindCount> dropped_before_;

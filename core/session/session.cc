@@ -225,6 +225,11 @@ bool Session::ProcessNext() {
   } else {
     s.ProcessEpoch();
   }
+  const EpochFilter& filter = s.solver.filter();
+  if (filter.inertial() && s.estimate.status == EstimateStatus::kFix) {
+    s.estimate.sources |= kSourceInertial;
+  }
+  s.events.NoteFilter(filter.restarts(), filter.inertial());
   if (s.options.estimator == Estimator::kSmoother) s.way.Note(s.estimate, s.solver.filter());
   return true;
 }

@@ -155,7 +155,7 @@ struct SessionEstimate {
   double tdop = 0.0;
   std::int32_t satellites_used = 0;  // distinct satellites
   std::int32_t satellites_seen = 0;
-  std::uint32_t sources = 0;  // kSourceGnss, kSourceVision
+  std::uint32_t sources = 0;  // kSourceGnss, kSourceVision, kSourceInertial
   PhotoOutcome photo = PhotoOutcome::kNone;
   std::int32_t landmarks_used = 0;
   std::int32_t landmarks_seen = 0;
@@ -167,6 +167,7 @@ struct SessionEstimate {
 
 inline constexpr std::uint32_t kSourceGnss = 1;
 inline constexpr std::uint32_t kSourceVision = 2;
+inline constexpr std::uint32_t kSourceInertial = 4;
 
 enum class SatelliteVerdict : std::uint8_t {
   kUsed,
@@ -215,6 +216,9 @@ enum class EventKind : std::uint8_t {
   kPhotoFailed,        // a photograph could not be looked up: the text says why
   kMapDatum,           // the map's datum is another than the fix's, or not known
   kSensorDropped,      // samples not later than the one before, told once for each sensor
+  kFilterRestarted,    // the filter's place was proven wrong, or fitted nothing for long
+  kInertialAligned,    // inertial sensors carry the filter from here
+  kInertialLost,       // they do not any more
 };
 
 struct SessionEvent {

@@ -182,7 +182,9 @@ std::string ReplaySummary::SystemsWithoutEphemeris() const {
 }
 
 std::map<std::string, std::int64_t> ReplaySummary::Sources() const {
-  static constexpr const char* kWords[] = {"motion", "gnss", "vision", "gnss+vision"};
+  static constexpr const char* kWords[] = {
+      "motion",   "gnss",          "vision",          "gnss+vision",
+      "inertial", "gnss+inertial", "vision+inertial", "gnss+vision+inertial"};
   std::map<std::string, std::int64_t> counts;
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     if (sources_[i] > 0) counts[kWords[i]] = sources_[i];

@@ -32,8 +32,9 @@ static_assert(std::size(kOutcomeWords) == LODEMARK_OUTCOME_AMBIGUOUS + 1);
 constexpr const char* kEventWords[] = {
     "clock_discontinuity", "millisecond_jump", "time_backwards",    "duplicate_epoch",
     "first_fix",           "fix_lost",         "ephemeris_missing", "photo_contradicted",
-    "photo_failed",        "map_datum",        "sensor_dropped"};
-static_assert(std::size(kEventWords) == LODEMARK_EVENT_SENSOR_DROPPED + 1);
+    "photo_failed",        "map_datum",        "sensor_dropped",    "filter_restarted",
+    "inertial_aligned",    "inertial_lost"};
+static_assert(std::size(kEventWords) == LODEMARK_EVENT_INERTIAL_LOST + 1);
 
 template <std::size_t kCount>
 const char* WordOf(const char* const (&words)[kCount], std::int32_t value) {
@@ -45,8 +46,11 @@ const char* SourcesWord(const lodemark_estimate& estimate) {
   if ((estimate.present & LODEMARK_ESTIMATE_HAS_POSITION) == 0) return "";
   const bool gnss = (estimate.sources & LODEMARK_SOURCE_GNSS) != 0;
   const bool vision = (estimate.sources & LODEMARK_SOURCE_VISION) != 0;
-  if (gnss && vision) return "gnss+vision";
-  return gnss ? "gnss" : vision ? "vision" : "motion";
+  const bool inertial = (estimate.sources & LODEMARK_SOURCE_INERTIAL) != 0;
+  if (gnss && vision) return inertial ? "gnss+vision+inertial" : "gnss+vision";
+  if (gnss) return inertial ? "gnss+inertial" : "gnss";
+  if (vision) return inertial ? "vision+inertial" : "vision";
+  return inertial ? "inertial" : "motion";
 }
 
 // What an event's value means, where it means something.

@@ -795,6 +795,7 @@ LODEMARK_API lodemark_status lodemark_session_queued(const lodemark_session* ses
 /* Bits of lodemark_estimate.sources. */
 #define LODEMARK_SOURCE_GNSS 0x1u
 #define LODEMARK_SOURCE_VISION 0x2u
+#define LODEMARK_SOURCE_INERTIAL 0x4u /* of a filter carried by inertial sensors */
 
 /* What the latest photograph gave the estimate. */
 #define LODEMARK_PHOTO_NONE 0 /* there was none, or none near in time */
@@ -945,6 +946,9 @@ LODEMARK_API lodemark_status lodemark_session_landmarks(const lodemark_session* 
 #define LODEMARK_EVENT_PHOTO_FAILED 8       /* it could not be looked up; the text says why */
 #define LODEMARK_EVENT_MAP_DATUM 9          /* the map was moved to where satellites put it */
 #define LODEMARK_EVENT_SENSOR_DROPPED 10    /* samples that came late; value: LODEMARK_SENSOR_... */
+#define LODEMARK_EVENT_FILTER_RESTARTED 11  /* the filter's place was proven wrong: begun anew */
+#define LODEMARK_EVENT_INERTIAL_ALIGNED 12  /* inertial sensors carry the filter from here */
+#define LODEMARK_EVENT_INERTIAL_LOST 13     /* they do not any more */
 
 /* Something that happened in between. */
 typedef struct lodemark_event {

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -64,7 +66,12 @@ class InertialCarrierTest : public ::testing::Test {
       }
       estimates.push_back(ProcessEpoch(session.get(), drive[i]));
     }
+    events_.clear();
+    for (const SessionEvent& event : session->events()) events_.push_back(event.kind);
     return estimates;
+  }
+  std::ptrdiff_t Count(EventKind kind) const {
+    return std::count(events_.begin(), events_.end(), kind);
   }
   double Error(const std::vector<SessionEstimate>& estimates, int epoch) const {
     return filter_scene_.HorizontalError(estimates[static_cast<std::size_t>(epoch)], epoch);
@@ -73,6 +80,7 @@ class InertialCarrierTest : public ::testing::Test {
   FilterScene filter_scene_;
   InertialScene scene_{filter_scene_.scene.place};
   Random random_{17};
+  std::vector<EventKind> events_;  // of the last run
 };
 
 TEST_F(InertialCarrierTest, FollowsTheBendsWithoutSatellites) {
@@ -82,11 +90,16 @@ TEST_F(InertialCarrierTest, FollowsTheBendsWithoutSatellites) {
     const SessionEstimate& estimate = carried[static_cast<std::size_t>(i)];
     ASSERT_EQ(estimate.status, EstimateStatus::kFix) << i;
     EXPECT_LT(Error(carried, i), 3.0 * estimate.accuracy_m) << i;
+    EXPECT_EQ(estimate.sources, kSourceInertial) << i;
   }
   EXPECT_LT(Error(carried, 74), 10.0);
   EXPECT_LT(Error(carried, 74), 0.3 * Error(alone, 74));
   EXPECT_LT(carried[74].accuracy_m, 0.5 * alone[74].accuracy_m);
   EXPECT_LT(Error(carried, 89), 3.0);
+  EXPECT_EQ(carried[89].sources, kSourceGnss | kSourceInertial);
+  EXPECT_EQ(alone[89].sources, kSourceGnss);
+  EXPECT_EQ(Count(EventKind::kInertialAligned), 1);
+  EXPECT_EQ(Count(EventKind::kInertialLost), 0);
 }
 
 // Two axes exchanged, as no phone has them: no worse than without.
@@ -106,6 +119,8 @@ TEST_F(InertialCarrierTest, ASensorThatMovesOtherwiseDoesNoHarm) {
 TEST_F(InertialCarrierTest, GoesOnWhereTheSamplesEnd) {
   const std::vector<SessionEstimate> alone = Run(Sensors::kNone);
   const std::vector<SessionEstimate> halfway = Run(Sensors::kUntilHalf);
+  EXPECT_EQ(Count(EventKind::kInertialAligned), 1);
+  EXPECT_EQ(Count(EventKind::kInertialLost), 1);
   EXPECT_EQ(halfway[59].status, EstimateStatus::kFix);
   EXPECT_LT(Error(halfway, 59), Error(alone, 59) + 1.0);
   EXPECT_LT(Error(halfway, 89), Error(alone, 89) + 1.0);

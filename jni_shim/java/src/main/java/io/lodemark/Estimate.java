@@ -16,6 +16,7 @@ public final class Estimate {
   private final boolean hasOrientation;
   private final boolean fromSatellites;
   private final boolean fromLandmarks;
+  private final boolean fromInertialSensors;
   private final int satellitesUsed;
   private final int satellitesSeen;
   private final long timeNanos;
@@ -62,6 +63,8 @@ public final class Estimate {
         Struct.hasBit(struct, at + Layout.Estimate.PRESENT, Values.ESTIMATE_HAS_ORIENTATION);
     fromSatellites = Struct.hasBit(struct, at + Layout.Estimate.SOURCES, Values.SOURCE_GNSS);
     fromLandmarks = Struct.hasBit(struct, at + Layout.Estimate.SOURCES, Values.SOURCE_VISION);
+    fromInertialSensors =
+        Struct.hasBit(struct, at + Layout.Estimate.SOURCES, Values.SOURCE_INERTIAL);
     satellitesUsed = struct.getInt(at + Layout.Estimate.SATELLITES_USED);
     satellitesSeen = struct.getInt(at + Layout.Estimate.SATELLITES_SEEN);
     timeNanos = struct.getLong(at + Layout.Estimate.TIME_NS);
@@ -191,6 +194,15 @@ public final class Estimate {
    */
   public boolean isFromLandmarks() {
     return fromLandmarks;
+  }
+
+  /**
+   * Whether inertial sensors carried the filter here.
+   *
+   * @return true if they did
+   */
+  public boolean isFromInertialSensors() {
+    return fromInertialSensors;
   }
 
   /**

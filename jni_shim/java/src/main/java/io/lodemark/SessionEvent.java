@@ -87,6 +87,12 @@ public final class SessionEvent {
     MAP_DATUM,
     /** Samples of a sensor that came late were dropped. */
     SENSOR_DROPPED,
+    /** The filter's place was proven wrong; it began anew. */
+    FILTER_RESTARTED,
+    /** Inertial sensors carry the filter from here. */
+    INERTIAL_ALIGNED,
+    /** Inertial sensors do not carry the filter any more. */
+    INERTIAL_LOST,
     /** One of a newer library. */
     UNKNOWN
   }

@@ -72,6 +72,7 @@ final class Values {
   static final int ESTIMATE_HAS_LANDMARK_SIGMA_FACTOR = 0x80;
   static final int SOURCE_GNSS = 0x1;
   static final int SOURCE_VISION = 0x2;
+  static final int SOURCE_INERTIAL = 0x4;
   static final int SATELLITE_HAS_RESIDUAL = 0x1;
   static final int SATELLITE_HAS_DIRECTION = 0x2;
   static final int SATELLITE_HAS_RANGE_RATE_RESIDUAL = 0x4;
