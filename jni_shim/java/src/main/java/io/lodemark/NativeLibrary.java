@@ -16,6 +16,10 @@ final class NativeLibrary {
   /** The shim finds the library in its own folder. Loaded in this order. */
   private static final String[] FILES = {"liblodemark.so.1", "liblodemark_jni.so"};
 
+  /** Those that the README lists, too. */
+  private static final String PACKAGES = "libopencv-features2d406 libopencv-imgproc406 "
+      + "libopencv-core406 libgeographiclib23 libsqlite3-0 libccd2 zlib1g";
+
   private NativeLibrary() {}
 
   static void load() {
@@ -25,12 +29,31 @@ final class NativeLibrary {
     } else if (NativeLibrary.class.getResource(resource(FILES[1])) != null) {
       loadFromJar();
     } else {
+      loadFromSystem();
+    }
+  }
+
+  /** As on Android, where the AAR brings the natives. */
+  private static void loadFromSystem() {
+    try {
       System.loadLibrary("lodemark_jni");
+    } catch (UnsatisfiedLinkError cause) {
+      throw explained(cause, "this jar has no natives for " + platform());
     }
   }
 
   private static void loadFrom(Path folder) {
-    for (String file : FILES) System.load(folder.resolve(file).toString());
+    try {
+      for (String file : FILES) System.load(folder.resolve(file).toString());
+    } catch (UnsatisfiedLinkError cause) {
+      throw explained(cause, "libraries it needs, on Debian 12: apt-get install " + PACKAGES);
+    }
+  }
+
+  private static UnsatisfiedLinkError explained(UnsatisfiedLinkError cause, String hint) {
+    UnsatisfiedLinkError error = new UnsatisfiedLinkError(cause.getMessage() + " (" + hint + ")");
+    error.initCause(cause);
+    return error;
   }
 
   /**

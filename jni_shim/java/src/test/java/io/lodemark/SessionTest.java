@@ -65,6 +65,7 @@ class SessionTest {
   void aSessionOnBootTimeTellsItsTimes() {
     try (PositioningSession session =
              Recorded.builder().timeBase(TimeBase.BOOT).systems(SatelliteSystem.GPS).open()) {
+      assertEquals(TimeBase.BOOT, session.getTimeBase());
       ReadReport report = session.pushNavigation("first_fix.rnx", Recorded.orbits());
       assertTrue(report.getRowsRead() >= 7);
       assertEquals("", report.getFirstProblem());

@@ -14,16 +14,22 @@ import android.hardware.camera2.CaptureResult;
 import android.media.FakeImage;
 import android.media.Image;
 import io.lodemark.Lens;
+import java.awt.image.BufferedImage;
 import java.nio.ByteBuffer;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import javax.imageio.ImageIO;
 import org.junit.Test;
 import org.junit.runner.RunWith;
 import org.robolectric.RobolectricTestRunner;
 import org.robolectric.Shadows;
 import org.robolectric.annotation.Config;
+import org.robolectric.annotation.GraphicsMode;
 
 /** What is made of an Image and of what Android says of its camera. */
 @RunWith(RobolectricTestRunner.class)
 @Config(sdk = 34, manifest = Config.NONE)
+@GraphicsMode(GraphicsMode.Mode.NATIVE) // Android's own decoder
 public class PhotoTest {
   private static final CameraCharacteristics CAMERA = Phone.camera(true, true);
 
@@ -145,5 +151,26 @@ public class PhotoTest {
     assertArrayEquals(new double[] {0, 0, -1}, tilt.upInCamera(2_000_000_000L, 90, false), 1e-6);
     assertArrayEquals(new double[] {0, 0, 1}, tilt.upInCamera(2_000_000_000L, 90, true), 1e-6);
     assertNull(tilt.upInCamera(3_000_000_000L, 90, false));
+  }
+
+  @Test
+  public void aJpegIsDecodedToGrey() throws Exception {
+    Path file = Recorded.ROOT.resolve("sample_logs/square/cam0/0001.jpg");
+    ByteBuffer jpeg = ByteBuffer.wrap(Files.readAllBytes(file));
+    Image image = new FakeImage(ImageFormat.JPEG, 1280, 960, Phone.TAKEN, jpeg, 0, 0);
+    Photo photo = Photo.copy(image, Phone.capture(Phone.TAKEN), CAMERA, null);
+    assertEquals(1280, photo.width);
+    assertEquals(960, photo.lens.getHeightPixels());
+    // Another decoder's colours, weighed alike: at most rounding apart.
+    BufferedImage other = ImageIO.read(file.toFile());
+    for (int i = 0; i < 1280 * 960; i += 997) {
+      int argb = other.getRGB(i % 1280, i / 1280);
+      double grey =
+          0.299 * (argb >> 16 & 0xFF) + 0.587 * (argb >> 8 & 0xFF) + 0.114 * (argb & 0xFF);
+      assertEquals("pixel " + i, grey, photo.pixels.get(i) & 0xFF, 6.0);
+    }
+    ByteBuffer noise = ByteBuffer.wrap(new byte[1000]);
+    Image garbage = new FakeImage(ImageFormat.JPEG, 1280, 960, Phone.TAKEN, noise, 0, 0);
+    assertNull(Photo.copy(garbage, Phone.capture(Phone.TAKEN), CAMERA, null));
   }
 }
