@@ -40,7 +40,8 @@ std::string Format(const char* format, ...) {
 // Text for a fixed field: as long as the field, without control characters.
 std::string Padded(std::string text, std::size_t width) {
   text.resize(width, ' ');
-  std::replace_if(text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
   return text;
 }
 
