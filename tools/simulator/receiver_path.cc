@@ -86,6 +86,16 @@ double ReceiverPath::Duration() const {
   return pause_s_ + 2.0 * ride.ramp_s + ride.roll_s;
 }
 
+std::vector<double> ReceiverPath::StopTimes() const {
+  std::vector<double> times_s;
+  double time_s = 0.0;
+  for (std::size_t i = 0; i + 1 < legs_.size(); ++i) {
+    time_s += legs_[i].Duration();
+    times_s.push_back(time_s);
+  }
+  return times_s;
+}
+
 ReceiverState ReceiverPath::At(double time_s) const {
   if (!legs_.empty()) {
     std::size_t leg = 0;

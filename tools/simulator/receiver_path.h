@@ -23,6 +23,8 @@ class ReceiverPath {
 
   // In the local frame of Scenario::place, seconds after the start. Past the last corner it stands.
   ReceiverState At(double time_s) const;
+  // When it arrives at the corners where it stops and turns on the spot.
+  std::vector<double> StopTimes() const;
 
  private:
   // How long it takes from the start until it stands for good.

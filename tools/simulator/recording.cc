@@ -11,6 +11,7 @@
 #include "core/logs/rinex_navigation_writer.h"
 #include "tools/simulator/footprints_text.h"
 #include "tools/simulator/gnss_logger_text.h"
+#include "tools/simulator/inertial_sensors.h"
 #include "tools/simulator/simulator.h"
 
 namespace lodemark {
@@ -18,8 +19,10 @@ namespace {
 
 constexpr std::int64_t kUnixOffset_ms = 315'964'800'000;  // of 1980-01-06
 constexpr double kTruthStep_s = 0.25;
-constexpr double kTruthMargin_s = 1.0;  // receiver clocks stray, so the truth reaches further
-constexpr int kSensorRowsPerEpoch = 2;
+constexpr double kTruthMargin_s = 1.0;   // receiver clocks stray, so the truth reaches further
+constexpr double kSensorsAhead_s = 1.0;  // sensors run before the first epoch
+constexpr double kRawRowsLate_s = 0.12;  // measurements reach the log so much after their epoch
+constexpr double kCompassEvery_s = 0.5;
 constexpr const char* kPathsFile = "signal_paths.csv";
 constexpr const char* kFootprintsFile = "buildings.geojson";
 
@@ -88,7 +91,7 @@ void AppendPathRows(const SimulatedEpoch& epoch, std::string* text) {
   }
 }
 
-// What the phone's own positioning and its inertial sensors would have logged.
+// What the phone's own positioning would have logged.
 class PhoneRows {
  public:
   explicit PhoneRows(const Scenario& scenario)
@@ -117,40 +120,78 @@ class PhoneRows {
     AppendFixRow(fix, text);
   }
 
-  // The phone is carried upright, its screen to the walker: x right, y up, z back.
-  void AppendSensors(const ReceiverState& state, double time_s, std::int64_t utc_ms,
-                     std::int64_t elapsed_realtime_ns, std::string* text) {
-    const double speed_mps = state.velocity_in_enu.head<2>().norm();
-    const double step_mps2 = 1.8 * speed_mps * std::sin(2.0 * kPi * 1.8 * time_s);
-    UncalibratedRow row;
-    row.utc_ms = utc_ms;
-    row.elapsed_realtime_ns = elapsed_realtime_ns;
-    row.kind = "UncalAccel";
-    Set(&row, {speed_mps * state.turn_rate_radps, 9.794 + step_mps2, 0.0}, {0.04, -0.02, 0.07},
-        0.03);
-    AppendUncalibratedRow(row, text);
-    row.kind = "UncalGyro";
-    Set(&row, {0.0, -state.turn_rate_radps, 0.0}, {0.002, -0.001, 0.0015}, 0.002);
-    AppendUncalibratedRow(row, text);
-    row.kind = "UncalMag";
-    // 34 microtesla north and 36 down, some 4 degrees west of north.
-    const double north_rad = state.heading_rad + 4.0 * kRadiansPerDegree;
-    Set(&row, {-34.0 * std::sin(north_rad), -36.0, -34.0 * std::cos(north_rad)}, {12.0, -30.0, 8.0},
-        0.3);
-    AppendUncalibratedRow(row, text);
+ private:
+  Random random_;
+  GaussMarkov east_m_, north_m_, up_m_;
+};
+
+// The rows of the inertial sensors and the compass, in the order of their times.
+class SensorRows {
+ public:
+  explicit SensorRows(const Scenario& scenario)
+      : motion_(scenario),
+        interval_s_(1.0 / scenario.sensor_rate_hz),
+        random_(scenario.seed * 6364136223846793005ULL + 1442695040888963407ULL),
+        force_errors_(PhoneAccelerometer(), &random_),
+        turn_errors_(PhoneGyroscope(), &random_) {
+    next_ = -std::lround(kSensorsAhead_s / interval_s_);
+  }
+
+  // All until the epoch's measurements were written.
+  void AppendUntil(const SimulatedEpoch& epoch, std::int64_t start_gps_ns, std::string* text) {
+    const double epoch_s = 1e-9 * static_cast<double>(epoch.true_gps_ns - start_gps_ns);
+    for (;; ++next_) {
+      const double time_s = static_cast<double>(next_) * interval_s_;
+      if (time_s > epoch_s + kRawRowsLate_s) return;
+      UncalibratedRow row;
+      row.utc_ms = UnixMilliseconds(start_gps_ns + std::llround(time_s * 1e9));
+      row.elapsed_realtime_ns =
+          epoch.raw.clock.elapsed_realtime_ns + std::llround((time_s - epoch_s) * 1e9);
+      Append(time_s, &row, text);
+    }
   }
 
  private:
-  void Set(UncalibratedRow* row, const std::array<double, 3>& values,
-           const std::array<double, 3>& biases, double sigma) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      row->values[i] = values[i] + biases[i] + random_.Gaussian(0.0, sigma);
+  void Append(double time_s, UncalibratedRow* row, std::string* text) {
+    const InertialTruth truth = motion_.At(time_s, interval_s_);
+    row->kind = "UncalAccel";
+    Set(force_errors_.Measure(truth.force_mps2, interval_s_, &random_), force_errors_.stated_bias(),
+        row);
+    AppendUncalibratedRow(*row, text);
+    row->kind = "UncalGyro";
+    Set(turn_errors_.Measure(truth.turn_rate_radps, interval_s_, &random_),
+        turn_errors_.stated_bias(), row);
+    AppendUncalibratedRow(*row, text);
+    const double compass = std::floor(time_s / kCompassEvery_s);
+    if (compass == compass_) return;
+    compass_ = compass;
+    row->kind = "UncalMag";
+    // 34 microtesla north and 36 down, some 4 degrees west of north.
+    constexpr double kWest_rad = 4.0 * kRadiansPerDegree;
+    const Eigen::Vector3d field_in_enu(-34.0 * std::sin(kWest_rad), 34.0 * std::cos(kWest_rad),
+                                       -36.0);
+    const Eigen::Vector3d bias(12.0, -30.0, 8.0);
+    Eigen::Vector3d measured = motion_.hold().EnuFromDevice(time_s).conjugate() * field_in_enu;
+    for (double& component : measured) component += random_.Gaussian(0.0, 0.3);
+    Set(measured + bias, bias, row);
+    AppendUncalibratedRow(*row, text);
+  }
+
+  static void Set(const Eigen::Vector3d& values, const Eigen::Vector3d& biases,
+                  UncalibratedRow* row) {
+    for (int i = 0; i < 3; ++i) {
+      row->values[i] = values[i];
       row->biases[i] = biases[i];
     }
   }
 
+  InertialMotion motion_;
+  double interval_s_;
   Random random_;
-  GaussMarkov east_m_, north_m_, up_m_;
+  SensorErrors force_errors_;
+  SensorErrors turn_errors_;
+  std::int64_t next_ = 0;  // number of the sample, counted from the start
+  double compass_ = -1e9;
 };
 
 std::string ManifestText(const Scenario& scenario) {
@@ -194,6 +235,7 @@ RecordingFiles MakeRecording(const Scenario& scenario,
                              const std::function<void(double)>& progress) {
   Simulator simulator(scenario);
   PhoneRows phone(scenario);
+  SensorRows sensors(scenario);
   RecordingFiles files;
   std::string& log = files["gnss_log.txt"];
   log = GnssLoggerHeader();
@@ -207,13 +249,7 @@ RecordingFiles MakeRecording(const Scenario& scenario,
   SimulatedEpoch epoch;
   while (simulator.Next(&epoch)) {
     const std::int64_t utc_ms = UnixMilliseconds(epoch.true_gps_ns);
-    for (int i = 0; i < kSensorRowsPerEpoch; ++i) {
-      const double ahead_s = scenario.interval_s * i / kSensorRowsPerEpoch;
-      const double time_s =
-          1e-9 * static_cast<double>(epoch.true_gps_ns - scenario.start_gps_ns) + ahead_s;
-      phone.AppendSensors(simulator.TruthAt(time_s), time_s, utc_ms + std::llround(ahead_s * 1e3),
-                          epoch.raw.clock.elapsed_realtime_ns + std::llround(ahead_s * 1e9), &log);
-    }
+    sensors.AppendUntil(epoch, scenario.start_gps_ns, &log);
     AppendRawRows(epoch.raw, utc_ms, &log);
     if (paths != nullptr) AppendPathRows(epoch, paths);
     phone.AppendFix(epoch, simulator.frame(), scenario.interval_s, utc_ms, &log);

@@ -96,6 +96,7 @@ void CheckOutdoors(const Scenario& scenario, ScenarioFields* fields) {
 
 Result<Scenario> PresetScenario(std::string_view name) {
   Scenario scenario = Base();
+  scenario.sensor_rate_hz = 2.0;  // a sample log is to be small
   if (name == "static") return scenario;
   if (name == "walk") {
     scenario.name = "walk";
@@ -150,6 +151,7 @@ Result<Scenario> ScenarioFromJson(const std::string& file, std::string_view text
   fields.Number("speed_mps", 0.1, 60.0, &scenario.speed_mps);
   fields.Number("pause_s", 0.0, 3600.0, &scenario.pause_s);
   fields.Number("stop_s", 0.0, 3600.0, &scenario.stop_s);
+  fields.Number("sensor_rate_hz", 0.1, 500.0, &scenario.sensor_rate_hz);
   ReadPhotoFields(&fields, &scenario.photography);
   if (!scenario.photography.groups.empty()) {
     scenario.rise_m = 0.0;  // the ground that photographs show is level

@@ -31,8 +31,9 @@ struct Scenario {
   double speed_mps = 1.35;
   double pause_s = 5.0;  // standing before the first step
   double stop_s = 0.0;   // standing at each corner between; 0: corners are rounded without a stop
-  double phone_height_m = 0.0;  // above the way: antenna and camera alike
-  double rise_m = 0.8;          // how much higher the highest part of the way is than the lowest
+  double phone_height_m = 0.0;    // above the way: antenna and camera alike
+  double sensor_rate_hz = 100.0;  // samples of the accelerometer and the gyroscope in a second
+  double rise_m = 0.8;            // how much higher the highest part of the way is than the lowest
 
   Photography photography;
 };
