@@ -62,9 +62,11 @@ using StepWithState = Eigen::Matrix<double, kInertialErrors, 6>;
 
 void InertialFilter::Start(const InertialState& state,
                            const Eigen::Matrix<double, 6, 6>& motion_covariance,
-                           const Eigen::Matrix<double, 9, 9>& attitude_covariance) {
+                           const Eigen::Matrix<double, 9, 9>& attitude_covariance,
+                           const InertialNoise& noise) {
   started_ = true;
   mounted_ = false;
+  noise_ = noise;
   state_ = state;
   covariance_.setZero();
   covariance_.topLeftCorner<6, 6>() = motion_covariance;
@@ -250,12 +252,17 @@ void InertialFilter::Mount() {
   ecef_from_vehicle.col(0) = forward;
   ecef_from_vehicle.col(1) = up.cross(forward).normalized();
   ecef_from_vehicle.col(2) = forward.cross(ecef_from_vehicle.col(1));
-  state_.sensor_from_vehicle =
-      (state_.ecef_from_sensor.conjugate() * Eigen::Quaterniond(ecef_from_vehicle)).normalized();
+  if (!ecef_from_vehicle.allFinite()) return;
+  MountAs(state_.ecef_from_sensor.conjugate() * Eigen::Quaterniond(ecef_from_vehicle),
+          kAnyMount_rad);
+}
+
+void InertialFilter::MountAs(const Eigen::Quaterniond& sensor_from_vehicle, double sigma_rad) {
+  state_.sensor_from_vehicle = sensor_from_vehicle.normalized();
   covariance_.middleRows<3>(kMount).setZero();
   covariance_.middleCols<3>(kMount).setZero();
-  covariance_.diagonal().segment<3>(kMount).setConstant(kAnyMount_rad * kAnyMount_rad);
-  mounted_ = ecef_from_vehicle.allFinite();
+  covariance_.diagonal().segment<3>(kMount).setConstant(sigma_rad * sigma_rad);
+  mounted_ = true;
 }
 
 Eigen::Vector3d InertialFilter::VelocityInVehicle() const {

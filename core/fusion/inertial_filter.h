@@ -42,7 +42,8 @@ class InertialFilter {
 
   // covariance: of position and velocity, and of turn and biases, earth-fixed.
   void Start(const InertialState& state, const Eigen::Matrix<double, 6, 6>& motion_covariance,
-             const Eigen::Matrix<double, 9, 9>& attitude_covariance);
+             const Eigen::Matrix<double, 9, 9>& attitude_covariance,
+             const InertialNoise& noise = {});
   void Stop() { started_ = false; }
 
   // Carries the state on to the time of the last sample; the first is at the time of the state.
@@ -61,6 +62,8 @@ class InertialFilter {
   bool HearStill(const Eigen::Vector3d& felt_radps, double sigma_radps);
   // From now on the sensor is fixed to a vehicle that moves forward.
   void Mount();
+  // Likewise, in a known way, to so many radians an axis.
+  void MountAs(const Eigen::Quaterniond& sensor_from_vehicle, double sigma_rad);
   bool mounted() const { return mounted_; }
   void Unmount() { mounted_ = false; }
   // The velocity along the vehicle's axes. Likewise.

@@ -5,6 +5,7 @@
 
 #include "core/geo/geodetic.h"
 #include "core/geo/gravity.h"
+#include "core/session/vehicle_axes.h"
 
 namespace lodemark {
 namespace {
@@ -38,6 +39,12 @@ constexpr int kUnlikeVehicle = 3;
 constexpr double kWheelSpeed_mps = 0.1;
 constexpr double kWheelSpeedShare = 0.01;
 constexpr std::int64_t kSpeedLasts_ns = 300'000'000;
+
+// What is felt by wheels: differences of a rounded speed, on roads that are not level.
+constexpr double kWheelTurn_rad_psqrt_s = 3e-3;
+constexpr double kWheelForce_mps_psqrt_s = 0.3;
+constexpr double kWheelAxes_rad = 0.02;
+constexpr double kWheelTurnWander_radps_psqrt_s = 1e-4;
 
 constexpr double kUnsaid_mps = 1e4;
 
@@ -90,14 +97,14 @@ void InertialCarrier::Note(std::int64_t time_ns, const MotionFilter& motion, boo
   bool complete = false;
   std::span<const InertialSample> samples;
   if (from_ns != 0 && seconds > 0.0 && seconds < kLongestStretch_s) {
-    samples = sensors_->Between(from_ns, time_ns, &complete);
+    samples = Felt(from_ns, time_ns, &complete);
   }
   if (!complete) {
     alignment_.Forget();
     return;
   }
   FeltStretch stretch;
-  stretch.felt = IntegrateInertial(samples, InertialBiases(), InertialNoise());
+  stretch.felt = IntegrateInertial(samples, InertialBiases(), noise());
   stretch.gained_in_ecef_mps =
       noted_velocity_in_ecef_mps_ - before - seconds * GravityInEcef(motion.position_in_ecef());
   stretch.sigma_mps = std::sqrt(variance + variance_before);
@@ -111,7 +118,8 @@ void InertialCarrier::Note(std::int64_t time_ns, const MotionFilter& motion, boo
   begin.velocity_in_ecef_mps = motion.velocity_in_ecef_mps();
   begin.ecef_from_sensor = aligned->ecef_from_sensor;
   begin.biases = aligned->biases;
-  filter_.Start(begin, state.covariance, aligned->covariance);
+  filter_.Start(begin, state.covariance, aligned->covariance, noise());
+  if (by_wheels_) filter_.MountAs(Eigen::Quaterniond::Identity(), kWheelAxes_rad);
   unlike_vehicle_ = 0;
   alignment_.Forget();
 }
@@ -121,13 +129,32 @@ bool InertialCarrier::Advance(std::int64_t from_ns, std::int64_t to_ns,
                               std::span<const RangeChangeObservation> changes,
                               MotionVerdicts* verdicts) {
   bool complete = false;
-  const std::span<const InertialSample> samples = sensors_->Between(from_ns, to_ns, &complete);
-  if (!complete) return false;
+  const bool by_wheels = by_wheels_;
+  const std::span<const InertialSample> samples = Felt(from_ns, to_ns, &complete);
+  if (!complete || by_wheels != by_wheels_) return false;
   filter_.Advance(samples, rates, changes, verdicts);
   if (!filter_.started()) return true;
   HearRest(samples, Seconds(from_ns, to_ns));
   HearVehicle(samples, from_ns, to_ns);
   return true;
+}
+
+std::span<const InertialSample> InertialCarrier::Felt(std::int64_t from_ns, std::int64_t to_ns,
+                                                      bool* complete) {
+  const std::span<const InertialSample> samples = sensors_->Between(from_ns, to_ns, complete);
+  const bool by_wheels = samples.empty() && FeltInVehicle(*sensors_, from_ns, to_ns, &wheels_);
+  if (by_wheels != by_wheels_) alignment_.Forget();
+  by_wheels_ = by_wheels;
+  if (!by_wheels) return samples;
+  *complete = true;
+  return wheels_;
+}
+
+const InertialNoise& InertialCarrier::noise() const {
+  static constexpr InertialNoise kPhone;
+  static constexpr InertialNoise kWheels = {kWheelTurn_rad_psqrt_s, kWheelForce_mps_psqrt_s,
+                                            kWheelTurnWander_radps_psqrt_s, 1e-4, 0.02};
+  return by_wheels_ ? kWheels : kPhone;
 }
 
 void InertialCarrier::HearRest(std::span<const InertialSample> samples, double seconds) {
@@ -153,7 +180,8 @@ void InertialCarrier::HearVehicle(std::span<const InertialSample> samples, std::
   const double speed_mps = filter_.state().velocity_in_ecef_mps.norm();
   const double speed_sigma_mps = std::sqrt(filter_.VelocityCovarianceEnu().trace());
   if (!filter_.mounted()) {
-    if (speed_mps < kVehicleSpeed_mps + 3.0 * speed_sigma_mps) return;
+    const double least_mps = wheels.empty() ? kVehicleSpeed_mps : kSlowVehicle_mps;
+    if (speed_mps < least_mps + 3.0 * speed_sigma_mps) return;
     filter_.Mount();
     unlike_vehicle_ = 0;
   }
@@ -173,7 +201,7 @@ void InertialCarrier::HearVehicle(std::span<const InertialSample> samples, std::
   }
   if (filter_.HearVehicle(said, sigmas)) {
     unlike_vehicle_ = 0;
-  } else if (++unlike_vehicle_ >= kUnlikeVehicle) {
+  } else if (++unlike_vehicle_ >= kUnlikeVehicle && !by_wheels_) {
     filter_.Unmount();
   }
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/fusion/inertial_alignment.h"
 #include "core/fusion/inertial_filter.h"
@@ -35,6 +36,9 @@ class InertialCarrier {
   void Forget();
 
  private:
+  // What was felt in between, by the phone or else by a vehicle that tells its speed.
+  std::span<const InertialSample> Felt(std::int64_t from_ns, std::int64_t to_ns, bool* complete);
+  const InertialNoise& noise() const;
   void HearRest(std::span<const InertialSample> samples, double seconds);
   void HearVehicle(std::span<const InertialSample> samples, std::int64_t from_ns,
                    std::int64_t to_ns);
@@ -42,6 +46,8 @@ class InertialCarrier {
   const SensorBuffer* sensors_;
   InertialFilter filter_;
   InertialAlignment alignment_;
+  bool by_wheels_ = false;  // what is felt is what a vehicle says
+  std::vector<InertialSample> wheels_;
   // Of the last moment whose velocity was measured.
   std::int64_t noted_ns_ = 0;
   Eigen::Vector3d noted_velocity_in_ecef_mps_ = Eigen::Vector3d::Zero();

@@ -46,13 +46,30 @@ class InertialCarrierTest : public ::testing::Test {
     return samples;
   }
 
+  // What the vehicle says of itself five times a second, rounded as its bus does.
+  std::vector<SensorSample> Wheels(int from_s) const {
+    std::vector<SensorSample> samples;
+    for (int i = 0; i < 5; ++i) {
+      const double seconds = from_s + 0.2 * i;
+      const Eigen::Vector3d before = scene_.enu_from_ecef() * scene_.VelocityAt(seconds - 0.01);
+      const Eigen::Vector3d after = scene_.enu_from_ecef() * scene_.VelocityAt(seconds + 0.01);
+      const double turned_rad = std::atan2(before.x() * after.y() - before.y() * after.x(),
+                                           before.head<2>().dot(after.head<2>()));
+      const double speed_mps = 0.02 * std::round(after.norm() / 0.02);
+      samples.push_back({SensorKind::kVehicle,
+                         kSceneStart_ns + std::llround(1e9 * seconds),
+                         {speed_mps, turned_rad / 0.02 + 0.002, 0.0}});
+    }
+    return samples;
+  }
+
   std::vector<ObservationEpoch> DriveWithOutage() const {
     std::vector<ObservationEpoch> drive = filter_scene_.Drive(90);
     for (std::size_t i = 60; i < 75; ++i) drive[i].signals.clear();
     return drive;
   }
 
-  enum class Sensors : std::uint8_t { kNone, kTrue, kExchanged, kUntilHalf };
+  enum class Sensors : std::uint8_t { kNone, kTrue, kExchanged, kUntilHalf, kWheels };
   std::vector<SessionEstimate> Run(Sensors sensors) {
     const std::vector<ObservationEpoch> drive = DriveWithOutage();
     const std::unique_ptr<Session> session = filter_scene_.scene.Open();
@@ -60,9 +77,11 @@ class InertialCarrierTest : public ::testing::Test {
     for (std::size_t i = 0; i < drive.size(); ++i) {
       const bool pushes = sensors != Sensors::kNone && (sensors != Sensors::kUntilHalf || i < 50);
       if (pushes && i > 0) {
-        EXPECT_TRUE(
-            session->PushSensors(Samples(static_cast<int>(i) - 1, sensors == Sensors::kExchanged))
-                .ok());
+        const int from_s = static_cast<int>(i) - 1;
+        const std::vector<SensorSample> samples =
+            sensors == Sensors::kWheels ? Wheels(from_s)
+                                        : Samples(from_s, sensors == Sensors::kExchanged);
+        EXPECT_TRUE(session->PushSensors(samples).ok());
       }
       estimates.push_back(ProcessEpoch(session.get(), drive[i]));
     }
@@ -100,6 +119,20 @@ TEST_F(InertialCarrierTest, FollowsTheBendsWithoutSatellites) {
   EXPECT_EQ(alone[89].sources, kSourceGnss);
   EXPECT_EQ(Count(EventKind::kInertialAligned), 1);
   EXPECT_EQ(Count(EventKind::kInertialLost), 0);
+}
+
+// No phone's sensors, but a car that tells its speed and how it turns.
+TEST_F(InertialCarrierTest, FollowsAVehiclesWheels) {
+  const std::vector<SessionEstimate> carried = Run(Sensors::kWheels);
+  EXPECT_EQ(Count(EventKind::kInertialAligned), 1);
+  for (int i = 60; i < 75; ++i) {
+    const SessionEstimate& estimate = carried[static_cast<std::size_t>(i)];
+    ASSERT_EQ(estimate.status, EstimateStatus::kFix) << i;
+    EXPECT_EQ(estimate.sources, kSourceInertial) << i;
+    EXPECT_LT(Error(carried, i), 3.0 * estimate.accuracy_m) << i;
+  }
+  EXPECT_LT(Error(carried, 74), 5.0);
+  EXPECT_LT(Error(carried, 89), 3.0);
 }
 
 // Two axes exchanged, as no phone has them: no worse than without.
