@@ -7,8 +7,8 @@ import java.nio.ByteBuffer;
  * be kept and filled again: it lies in a direct buffer that the library reads in place, and filling
  * it allocates nothing once it had that many samples.
  *
- * <p>Both inertial sensors share their axes, which are those of the phone: Android's. Values of
- * uncalibrated sensors are best, as the session finds their biases itself.
+ * <p>Both inertial sensors share their axes, which are those of the phone: Android's. Its
+ * calibrated sensors will do, or the uncalibrated ones less the bias that is stated beside them.
  */
 public final class ImuBatch {
   /** As many as one push takes. */
@@ -40,7 +40,7 @@ public final class ImuBatch {
   }
 
   /**
-   * A specific force in m/s2, as Android's TYPE_ACCELEROMETER_UNCALIBRATED gives it: at rest 9.8
+   * A specific force in m/s2, as Android's TYPE_ACCELEROMETER gives it: at rest 9.8
    * upwards.
    *
    * @param timeNanos in the session's base
@@ -54,7 +54,7 @@ public final class ImuBatch {
   }
 
   /**
-   * A turn rate in rad/s, as Android's TYPE_GYROSCOPE_UNCALIBRATED gives it.
+   * A turn rate in rad/s, as Android's TYPE_GYROSCOPE gives it.
    *
    * @param timeNanos in the session's base
    * @param x about the axis to the right of the screen, right-handed

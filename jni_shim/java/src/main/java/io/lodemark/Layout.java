@@ -102,13 +102,14 @@ final class Layout {
   static final class Frame {
     private Frame() {}
 
-    static final int SIZE = 64;
+    static final int SIZE = 96;
     static final int PRESENT = 4;
     static final int TIME_NS = 8;
     static final int UP_IN_CAMERA = 16;
     static final int UP_SIGMA_DEG = 40;
     static final int HEADING_DEG = 48;
     static final int HEADING_SIGMA_DEG = 56;
+    static final int CAMERA_FROM_DEVICE = 64;
   }
 
   /** lodemark_sensor_sample. */

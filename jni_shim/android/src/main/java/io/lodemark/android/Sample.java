@@ -17,6 +17,11 @@ final class Sample {
     System.arraycopy(from, 0, values, 0, count);
   }
 
+  /** Of an uncalibrated sensor: a value less the bias that Android states beside it. */
+  double unbiased(int i) {
+    return values[i] - (i + 3 < count ? (double) values[i + 3] : 0.0);
+  }
+
   boolean isFinite() {
     boolean finite = count > 0;
     for (int i = 0; i < count; ++i) finite &= GnssEvents.finite(values[i]);

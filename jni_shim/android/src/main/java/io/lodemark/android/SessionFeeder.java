@@ -133,13 +133,12 @@ final class SessionFeeder {
       return;
     }
     long timeNanos = inSession(next.bootNanos);
-    float[] v = next.values;
     if (next.sensorType == Sensor.TYPE_ACCELEROMETER_UNCALIBRATED) {
-      batch.addAccelerometer(timeNanos, v[0], v[1], v[2]);
+      batch.addAccelerometer(timeNanos, next.unbiased(0), next.unbiased(1), next.unbiased(2));
     } else if (next.sensorType == Sensor.TYPE_GYROSCOPE_UNCALIBRATED) {
-      batch.addGyroscope(timeNanos, v[0], v[1], v[2]);
+      batch.addGyroscope(timeNanos, next.unbiased(0), next.unbiased(1), next.unbiased(2));
     } else {
-      batch.addBarometer(timeNanos, v[0]);
+      batch.addBarometer(timeNanos, next.values[0]);
     }
     if (batch.size() == ImuBatch.LARGEST_SIZE)
       pushSamples();

@@ -1,5 +1,6 @@
 package io.lodemark.android;
 
+import android.hardware.Sensor;
 import android.location.GnssClock;
 import android.location.GnssMeasurement;
 import android.location.GnssMeasurementsEvent;
@@ -18,20 +19,32 @@ final class LoggedEvents {
 
   private final Consumer<GnssMeasurementsEvent> epochs;
   private final Consumer<GnssNavigationMessage> messages;
+  private final Samples samples;
   private List<String> columns = new ArrayList<>();
   private String[] row;
   private GnssClock clock;
   private final List<GnssMeasurement> measurements = new ArrayList<>();
 
-  private LoggedEvents(
-      Consumer<GnssMeasurementsEvent> epochs, Consumer<GnssNavigationMessage> messages) {
+  /** Of inertial rows. */
+  interface Samples {
+    void take(int sensorType, long timestamp, float[] values);
+  }
+
+  private LoggedEvents(Consumer<GnssMeasurementsEvent> epochs,
+      Consumer<GnssNavigationMessage> messages, Samples samples) {
+    this.samples = samples;
     this.epochs = epochs;
     this.messages = messages;
   }
 
   static void read(Path log, Consumer<GnssMeasurementsEvent> epochs,
       Consumer<GnssNavigationMessage> messages) throws IOException {
-    LoggedEvents events = new LoggedEvents(epochs, messages);
+    read(log, epochs, messages, (type, timestamp, values) -> {});
+  }
+
+  static void read(Path log, Consumer<GnssMeasurementsEvent> epochs,
+      Consumer<GnssNavigationMessage> messages, Samples samples) throws IOException {
+    LoggedEvents events = new LoggedEvents(epochs, messages, samples);
     try (BufferedReader lines = Recorded.open(log)) {
       for (String line = lines.readLine(); line != null; line = lines.readLine()) events.take(line);
     }
@@ -53,7 +66,17 @@ final class LoggedEvents {
       measurements.add(measurement());
     } else if (line.startsWith("Nav,")) {
       messages.accept(message(line.trim().split(",")));
+    } else if (line.startsWith("UncalAccel,")) {
+      sample(Sensor.TYPE_ACCELEROMETER_UNCALIBRATED, line.trim().split(","));
+    } else if (line.startsWith("UncalGyro,")) {
+      sample(Sensor.TYPE_GYROSCOPE_UNCALIBRATED, line.trim().split(","));
     }
+  }
+
+  private void sample(int type, String[] cells) {
+    float[] values = new float[cells.length - 3];
+    for (int i = 0; i < values.length; ++i) values[i] = Float.parseFloat(cells[3 + i]);
+    samples.take(type, Long.parseLong(cells[2]), values);
   }
 
   private void finishEpoch() {
