@@ -15,41 +15,18 @@
 #include "core/base/units.h"
 #include "core/geo/geodetic.h"
 #include "core/geo/time.h"
-#include "core/gnss/navigation_message.h"
 #include "core/logs/trajectory.h"
-#include "core/logs/ubx.h"
 #include "core/session/session.h"
+#include "test/recorded/walk_recording.h"
 #include "test/recordings.h"
 
 namespace lodemark::test {
 namespace {
 
-constexpr const char* kWalk = "drive/walk_boulder_20250828";
-
 // The three epochs at which the receiver's range to a geostationary satellite was 2 ms too long,
 // which sends plain solvers 80 km away.
 constexpr std::int64_t kFirstJump_gps_ns = 2381 * kWeek_ns + 408'707'498 * kMillisecond_ns;
 constexpr std::int64_t kLastJump_gps_ns = 2381 * kWeek_ns + 408'707'998 * kMillisecond_ns;
-
-struct Walk {
-  std::vector<ObservationEpoch> epochs;
-  std::vector<NavigationRecord> navigation;
-};
-
-Walk ReadWalk() {
-  Walk walk;
-  Result<UbxReader> reader = UbxReader::Open(RecordingPath(kWalk) + "/gnss_1730.ubx");
-  if (!reader) return walk;
-  NavigationMessageDecoder decoder;
-  for (UbxRecord record; reader->Next(&record);) {
-    if (const auto* epoch = std::get_if<ObservationEpoch>(&record)) walk.epochs.push_back(*epoch);
-    const auto* message = std::get_if<LoggedNavigationMessage>(&record);
-    if (message == nullptr || walk.epochs.empty()) continue;
-    decoder.Push(message->type, message->svid, message->bytes, walk.epochs.back().time_gps_ns,
-                 &walk.navigation);
-  }
-  return walk;
-}
 
 struct Score {
   std::size_t epochs = 0;
