@@ -1,5 +1,7 @@
 // Maps and photographs of a session.
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -16,6 +18,7 @@ namespace lodemark {
 namespace {
 
 constexpr double kSmallestAngle_deg = 1e-6;
+constexpr double kUnitTolerance = 1e-3;  // quaternions written with three digits
 
 lodemark_status ReadFrame(const lodemark_frame* frame, CameraFrame* out) {
   lodemark_frame stated = {};
@@ -24,7 +27,10 @@ lodemark_status ReadFrame(const lodemark_frame* frame, CameraFrame* out) {
   }
   const auto has = [&](std::uint32_t bit) { return (stated.present & bit) != 0; };
   Check check({"frame"});
-  check.Bits(stated.present, LODEMARK_FRAME_HAS_GRAVITY | LODEMARK_FRAME_HAS_HEADING, "present");
+  check.Bits(stated.present,
+             LODEMARK_FRAME_HAS_GRAVITY | LODEMARK_FRAME_HAS_HEADING |
+                 LODEMARK_FRAME_HAS_CAMERA_FROM_DEVICE,
+             "present");
   check.Time(stated.time_ns, "time_ns");
   const Eigen::Vector3d up = Eigen::Map<const Eigen::Vector3d>(stated.up_in_camera);
   if (has(LODEMARK_FRAME_HAS_GRAVITY)) {
@@ -36,8 +42,20 @@ lodemark_status ReadFrame(const lodemark_frame* frame, CameraFrame* out) {
     check.Within(stated.heading_deg, -360.0, 360.0, "heading_deg");
     check.Within(stated.heading_sigma_deg, kSmallestAngle_deg, 180.0, "heading_sigma_deg");
   }
+  const double* const turn = stated.camera_from_device;
+  const Eigen::Quaterniond camera_from_device(turn[0], turn[1], turn[2], turn[3]);
+  if (has(LODEMARK_FRAME_HAS_CAMERA_FROM_DEVICE)) {
+    for (const double value : stated.camera_from_device) {
+      check.Within(value, -2.0, 2.0, "camera_from_device");
+    }
+    check.True(std::abs(camera_from_device.norm() - 1.0) < kUnitTolerance, "camera_from_device",
+               "is no unit quaternion");
+  }
   if (check.status() != LODEMARK_OK) return check.status();
   out->time_ns = stated.time_ns;
+  if (has(LODEMARK_FRAME_HAS_CAMERA_FROM_DEVICE)) {
+    out->camera_from_device = camera_from_device.normalized();
+  }
   if (has(LODEMARK_FRAME_HAS_GRAVITY)) {
     out->gravity = GravityPrior{up.normalized(), stated.up_sigma_deg * kRadiansPerDegree};
   }

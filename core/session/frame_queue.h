@@ -20,6 +20,7 @@ class FrameQueue {
   std::size_t count() const { return count_; }
   // Only of one that is not empty. The image stays until the next Push.
   const CameraFrame& front() const { return *slots_[first_].frame; }
+  CameraFrame& front() { return *slots_[first_].frame; }
   void Pop();
   void Clear() { count_ = 0; }
 

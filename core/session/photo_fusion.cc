@@ -103,6 +103,12 @@ std::optional<PlacePrior> PhotoFusion::PredictedPlaceAt(std::int64_t time_ns) co
   return prior;
 }
 
+void PhotoFusion::Level(const SensorBuffer& sensors) {
+  CameraFrame& frame = queue_.front();
+  if (frame.gravity || !frame.camera_from_device) return;
+  frame.gravity = LevelAt(sensors, frame.time_ns, *frame.camera_from_device);
+}
+
 void PhotoFusion::Look(EpochSolver* solver, SessionEstimate* estimate,
                        std::vector<LandmarkStatus>* landmarks, EventLog* events) {
   const CameraFrame& frame = queue_.front();

@@ -10,6 +10,7 @@
 #include "core/session/event_log.h"
 #include "core/session/frame_queue.h"
 #include "core/session/motion.h"
+#include "core/session/photo_level.h"
 #include "core/session/photo_sighting.h"
 #include "core/session/session.h"
 #include "core/session/sight_lines.h"
@@ -30,6 +31,9 @@ class PhotoFusion {
   // What the map's buildings leave in sight at a time, from where the receiver must be by then;
   // null if the map has none.
   SightSource* SightsAt(std::int64_t time_ns, std::int64_t time_gps_ns, EventLog* events);
+
+  // Gives the next photograph what is up by the accelerometer, if it has nothing better.
+  void Level(const SensorBuffer& sensors);
 
   // Looks the next photograph up and estimates where it was taken, with the last epoch where that
   // is near in time.

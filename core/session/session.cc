@@ -246,6 +246,7 @@ void Session::Impl::ProcessEpoch() {
 }
 
 void Session::Impl::ProcessFrame() {
+  photos.Level(sensors);
   photos.Look(&solver, &estimate, &landmarks, &events);
   events.NotePhoto(estimate);
   events.NoteOutcome(estimate);

@@ -179,7 +179,7 @@ FIELD(lodemark_estimate, reserved, 388);
 FIELD(lodemark_estimate, satellite_sigma_factor, 392);
 FIELD(lodemark_estimate, landmark_sigma_factor, 400);
 
-SIZE(lodemark_frame, 64);
+SIZE(lodemark_frame, 96);
 FIELD(lodemark_frame, struct_size, 0);
 FIELD(lodemark_frame, present, 4);
 FIELD(lodemark_frame, time_ns, 8);
@@ -187,6 +187,7 @@ FIELD(lodemark_frame, up_in_camera, 16);
 FIELD(lodemark_frame, up_sigma_deg, 40);
 FIELD(lodemark_frame, heading_deg, 48);
 FIELD(lodemark_frame, heading_sigma_deg, 56);
+FIELD(lodemark_frame, camera_from_device, 64);
 
 SIZE(lodemark_landmark, 96);
 FIELD(lodemark_landmark, struct_size, 0);
@@ -466,6 +467,7 @@ VALUE(LODEMARK_SCHEME_VISION, 3);
 VALUE(LODEMARK_SCHEME_GNSS, 4);
 VALUE(LODEMARK_FRAME_HAS_GRAVITY, 0x1u);
 VALUE(LODEMARK_FRAME_HAS_HEADING, 0x2u);
+VALUE(LODEMARK_FRAME_HAS_CAMERA_FROM_DEVICE, 0x4u);
 VALUE(LODEMARK_ESTIMATE_HAS_ORIENTATION, 0x20u);
 VALUE(LODEMARK_SOURCE_VISION, 0x2u);
 VALUE(LODEMARK_PHOTO_NONE, 0);

@@ -283,7 +283,7 @@ TEST_F(SessionPhoto, RefusesWhatMakesNoSense) {
             kInvalid);
   EXPECT_EQ(lodemark_session_push_image(session_, &frame, &scene_->lens, pixels, stride - 1),
             kInvalid);
-  frame.present = 4;
+  frame.present = 8;
   EXPECT_EQ(push(), LODEMARK_ERROR_UNSUPPORTED);
   frame.present = LODEMARK_FRAME_HAS_GRAVITY;
   EXPECT_EQ(push(), kInvalid);

@@ -123,6 +123,36 @@ TEST_F(SessionSensors, SamplesThatComeLateAreDroppedAndToldOncePerSensor) {
   EXPECT_EQ(events[1].time_ns, 500);
 }
 
+// A frame's turn from the axes of its samples to those of the camera is a turn.
+TEST_F(SessionSensors, LevelPhotographsByAQuaternionOnly) {
+  lodemark_lens lens = {};
+  lens.struct_size = sizeof lens;
+  lens.width_px = lens.height_px = 8;
+  lens.fx_px = lens.fy_px = 8.0;
+  const std::vector<std::uint8_t> pixels(64);
+  lodemark_frame frame = {};
+  frame.struct_size = sizeof frame;
+  frame.present = LODEMARK_FRAME_HAS_CAMERA_FROM_DEVICE;
+  const auto push = [&](double w, double x, double y, double z) {
+    frame.camera_from_device[0] = w;
+    frame.camera_from_device[1] = x;
+    frame.camera_from_device[2] = y;
+    frame.camera_from_device[3] = z;
+    return lodemark_session_push_image(session_, &frame, &lens, pixels.data(), 8);
+  };
+  const lodemark_status without_map = LODEMARK_ERROR_OUT_OF_ORDER;
+  EXPECT_EQ(push(0.0, 0.7071, -0.7071, 0.0), without_map) << lodemark_last_error();
+  for (const double bad : {kNan, 0.0, 0.9, 5.0}) {
+    EXPECT_EQ(push(bad, 0.0, 0.0, 0.0), kInvalid);
+    EXPECT_NE(std::strstr(lodemark_last_error(), "frame.camera_from_device"), nullptr)
+        << lodemark_last_error();
+  }
+  frame.present = 0;  // it does not count
+  EXPECT_EQ(push(kNan, 0.0, 0.0, 0.0), without_map);
+  frame.struct_size = 64;  // of the first version
+  EXPECT_EQ(push(kNan, 0.0, 0.0, 0.0), without_map);
+}
+
 TEST_F(SessionSensors, AreForgottenWithAReset) {
   EXPECT_EQ(Push(Moment(1000)), LODEMARK_OK);
   EXPECT_EQ(lodemark_session_reset(session_), LODEMARK_OK);

@@ -718,6 +718,7 @@ LODEMARK_API lodemark_status lodemark_session_use_map(lodemark_session* session,
 /* Bits of lodemark_frame.present. */
 #define LODEMARK_FRAME_HAS_GRAVITY 0x1u
 #define LODEMARK_FRAME_HAS_HEADING 0x2u
+#define LODEMARK_FRAME_HAS_CAMERA_FROM_DEVICE 0x4u
 
 /* How a photograph was taken, as far as it is known. */
 typedef struct lodemark_frame {
@@ -728,6 +729,10 @@ typedef struct lodemark_frame {
   double up_sigma_deg;
   double heading_deg; /* HAS_HEADING: of the optical axis, clockwise from north */
   double heading_sigma_deg;
+  /* HAS_CAMERA_FROM_DEVICE: turns axes of the accelerometer into those of the camera, quaternion
+   * w x y z. Without HAS_GRAVITY, samples pushed around the exposure then tell what is up. Of a
+   * phone's back camera: 0, cos(a / 2), -sin(a / 2), 0 with a Android's SENSOR_ORIENTATION. */
+  double camera_from_device[4];
 } lodemark_frame;
 
 /*
