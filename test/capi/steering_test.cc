@@ -2,12 +2,15 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <string>
 #include <vector>
 
+#include "core/base/random.h"
 #include "lodemark/lodemark.h"
 #include "test/capi/constellation.h"
 #include "test/capi/photo_scene.h"
@@ -15,6 +18,7 @@
 namespace lodemark::test {
 namespace {
 
+const Eigen::Vector3d kForward = Eigen::Vector3d::UnitZ();  // of a camera
 constexpr double kPlace[3] = {48.2, 16.37, 180.0};
 
 template <typename T>
@@ -211,6 +215,39 @@ TEST_F(Steered, AHeadingOfThePhotographIsTaken) {
                        estimate.ecef_m[2] - scene_->camera_in_ecef_m[2]),
             0.05);
   lodemark_session_close(session);
+}
+
+// Two leanings of a small board look alike: both are given, and no position.
+TEST_F(Steered, ASmallFlatTargetHasTwoAnswers) {
+  Random random(1);
+  const Eigen::Quaterniond lean(Eigen::AngleAxisd(0.5, Eigen::Vector3d(1.0, 0.4, 0).normalized()));
+  count_ = 30;
+  for (int i = 0; i < count_; ++i) {
+    const double x_m = random.Uniform(-0.4, 0.4);
+    const double y_m = random.Uniform(-0.4, 0.4);
+    const Eigen::Vector3d in_camera = lean * Eigen::Vector3d(x_m, y_m, 0.0) + 10.0 * kForward;
+    const double enu_m[3] = {kCamera_enu_m[0] + in_camera.x(), kCamera_enu_m[1] + in_camera.z(),
+                             kCamera_enu_m[2] - in_camera.y()};
+    lodemark_sight& sight = sights_[static_cast<std::size_t>(i)];
+    sight = Sized<lodemark_sight>();
+    lodemark_ecef_from_enu(kOrigin_geodetic, enu_m, sight.landmark_in_ecef_m);
+    const lodemark_lens& lens = scene_->lens;
+    sight.pixel_px[0] = lens.cx_px + lens.fx_px * in_camera.x() / in_camera.z();
+    sight.pixel_px[1] = lens.cy_px + lens.fy_px * in_camera.y() / in_camera.z();
+    sight.pixel_px[0] += random.Gaussian();
+    sight.pixel_px[1] += random.Gaussian();
+  }
+  ASSERT_EQ(Resect(), LODEMARK_NO_POSITION) << lodemark_last_error();
+  ASSERT_EQ(pose_.verdict, LODEMARK_POSE_AMBIGUOUS);
+  const auto off_rad = [](const double(&q)[4]) {
+    const double half = std::sqrt(0.5);  // level and to the north: a quarter turn about east
+    return 2.0 * std::acos(std::min(1.0, std::abs(half * q[0] + half * q[1])));
+  };
+  const double one_rad = off_rad(pose_.camera_from_enu);
+  const double other_rad = off_rad(pose_.alternative_camera_from_enu);
+  EXPECT_LT(std::min(one_rad, other_rad), 0.2);
+  EXPECT_GT(std::max(one_rad, other_rad), 0.5);
+  EXPECT_NE(pose_.alternative_ecef_m[0], 0.0);
 }
 
 TEST(LensStep, RefusesMorePointsThanACallTakes) {
