@@ -24,6 +24,7 @@ enum class FileKind : std::uint8_t {
   kDerived,     // Kaggle 2021
   kTrajectory,  // truth.csv or trajectory.csv
   kUbx,         // of a u-blox receiver
+  kSensors,     // a table of samples of inertial sensors, a barometer or a vehicle, with a header
 };
 
 // Fails if the file cannot be opened or is empty.

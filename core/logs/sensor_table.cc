@@ -89,20 +89,14 @@ struct SensorTableReader::Impl {
 
   Status TakeHeader(std::string_view header) {
     columns = CsvColumns(header, SensorTableNames());
-    const std::optional<SensorTableClock> found = ClockOf(columns);
-    const bool has_vehicle = (columns.Has(kSpeedSi) || columns.Has(kSpeedKmh)) &&
-                             (columns.Has(kYawRateSi) || columns.Has(kYawRateDegrees));
-    const bool has_sensor = HasVector(kForceSi) || HasVector(kForceG) || HasVector(kTurnRateSi) ||
-                            HasVector(kTurnRateDegrees) || columns.Has(kPressureHpa) ||
-                            columns.Has(kPressurePa) || has_vehicle;
-    if (!found || !has_sensor) {
+    if (!HasSensor(columns)) {
       return Error{ErrorCode::kBadData,
                    lines.name() +
                        ": its columns cannot be told; begin it with a line such as "
                        "time_gps_ns,accel_x_mps2,accel_y_mps2,accel_z_mps2,gyro_x_radps,..., or "
                        "say so in the manifest"};
     }
-    clock = *found;
+    clock = *ClockOf(columns);
     return {};
   }
 

@@ -81,6 +81,23 @@ std::optional<SensorTableClock> ClockOf(const CsvColumns& columns) {
   return std::nullopt;
 }
 
+bool HasSensor(const CsvColumns& columns) {
+  const auto has_vector = [&columns](int field) {
+    return columns.Has(field) && columns.Has(field + 1) && columns.Has(field + 2);
+  };
+  const bool has_vehicle = (columns.Has(kSpeedSi) || columns.Has(kSpeedKmh)) &&
+                           (columns.Has(kYawRateSi) || columns.Has(kYawRateDegrees));
+  return ClockOf(columns).has_value() &&
+         (has_vector(kForceSi) || has_vector(kForceG) || has_vector(kTurnRateSi) ||
+          has_vector(kTurnRateDegrees) || columns.Has(kPressureHpa) || columns.Has(kPressurePa) ||
+          has_vehicle);
+}
+
+bool IsSensorHeader(std::string_view line) {
+  if (line.starts_with('#')) line.remove_prefix(1);
+  return HasSensor(CsvColumns(line, SensorTableNames()));
+}
+
 std::optional<std::int64_t> ReadSensorTime(const CsvCells& cells, SensorTableClock clock) {
   const int field = kSensorTime + static_cast<int>(clock);
   std::optional<std::int64_t> time_ns;

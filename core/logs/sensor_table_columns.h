@@ -42,6 +42,11 @@ std::span<const ColumnName> SensorTableNames();
 // The clock whose column the table has.
 std::optional<SensorTableClock> ClockOf(const CsvColumns& columns);
 
+// Whether there are a time and all columns of at least one sensor.
+bool HasSensor(const CsvColumns& columns);
+// A header line, with a '#' before it or without.
+bool IsSensorHeader(std::string_view line);
+
 // GPS time of the cell, or nanoseconds of the recording. Empty, and the row counted as skipped,
 // if it is no time.
 std::optional<std::int64_t> ReadSensorTime(const CsvCells& cells, SensorTableClock clock);

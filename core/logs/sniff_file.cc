@@ -4,6 +4,7 @@
 #include "core/logs/line_reader.h"
 #include "core/logs/parse_number.h"
 #include "core/logs/recording.h"
+#include "core/logs/sensor_table_columns.h"
 #include "core/logs/ubx_frames.h"
 
 namespace lodemark {
@@ -65,6 +66,7 @@ FileKind KindOfFirstLine(std::string_view line) {
       NamesColumn(line, "longitude_deg")) {
     return FileKind::kTrajectory;
   }
+  if (IsSensorHeader(line) || line.starts_with("odom3 ")) return FileKind::kSensors;
   return FileKind::kUnknown;
 }
 
@@ -114,6 +116,8 @@ std::string_view RoleOf(FileKind kind) {
       return "trajectory";
     case FileKind::kUbx:
       return "receiver_raw";
+    case FileKind::kSensors:
+      return "imu";
     case FileKind::kUnknown:
       break;
   }

@@ -7,6 +7,7 @@
 #include "core/logs/kaggle_gnss.h"
 #include "core/logs/rinex_navigation.h"
 #include "core/logs/rinex_observation.h"
+#include "core/logs/sensor_table.h"
 #include "core/logs/sp3.h"
 #include "core/logs/trajectory.h"
 #include "core/logs/ubx.h"
@@ -263,6 +264,27 @@ Status SurveyTrajectory(const std::string& path, LogSurvey* survey) {
   return {};
 }
 
+Status SurveySensors(const std::string& path, const Progress& progress, LogSurvey* survey) {
+  Result<SensorTableReader> reader = SensorTableReader::Open(path);
+  if (!reader) return reader.error();
+  TimeLine times(survey);
+  SensorRow row;
+  while (reader->Next(&row)) {
+    if (!reader->is_relative()) times.Add(row.time_ns);
+    if (row.force_mps2) ++survey->rows["accelerometer"];
+    if (row.turn_rate_radps) ++survey->rows["gyroscope"];
+    if (row.pressure_hpa) ++survey->rows["barometer"];
+    if (row.speed_mps && row.yaw_rate_radps) ++survey->rows["vehicle"];
+    progress(reader->progress());
+  }
+  times.Finish();
+  survey->description = "Table of samples of sensors";
+  if (reader->is_relative()) survey->description += ", timed from the recording's first epoch";
+  survey->report = reader->report();
+  if (survey->report.rows_read == 0) survey->faults.push_back("there is no row that can be read");
+  return reader->status();
+}
+
 }  // namespace
 
 std::string SignalName(System system, SignalCode signal) {
@@ -295,6 +317,9 @@ Result<LogSurvey> SurveyFile(const std::string& path, const Progress& progress) 
       break;
     case FileKind::kTrajectory:
       status = SurveyTrajectory(path, &survey);
+      break;
+    case FileKind::kSensors:
+      status = SurveySensors(path, progress, &survey);
       break;
     case FileKind::kUbx:
       status = SurveyUbx(path, progress, &survey);

@@ -33,6 +33,8 @@ KindUse UseOf(FileKind kind) {
       return {"a trajectory", nullptr};
     case FileKind::kUbx:
       return {"a u-blox file", "--log"};
+    case FileKind::kSensors:
+      return {"a table of samples of sensors", nullptr};
     case FileKind::kUnknown:
       break;
   }

@@ -116,6 +116,11 @@ TEST_F(RecordingFolder, WithoutManifestIsSortedOutByContent) {
   const std::string derived = Write("i.csv", "collectionName,millisSinceGpsEpoch,rawPrM\n");
   const std::string truth = Write("truth.csv", "time_gps_ns,latitude_deg,longitude_deg\n");
   const std::string run = Write("trajectory.csv", "time_gps_ns,latitude_deg,longitude_deg\n");
+  const std::string imu = Write("j.csv",
+                                "#timestamp [ns],a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],"
+                                "a_RS_S_z [m s^-2]\n");
+  const std::string car = Write("k.csv", "time_gps_ns,speed_mps,yaw_rate_radps\n");
+  Write("l.csv", "time_gps_ns,speed_mps\n");
   Write("notes.md", "Raw, uncut\n");
   Write("picture.jpg", std::string_view("\xFF\xD8\xFF\0\0\0", 6));
   Write("empty", "");
@@ -133,7 +138,8 @@ TEST_F(RecordingFolder, WithoutManifestIsSortedOutByContent) {
   EXPECT_THAT(recording->Files("derived"), ElementsAre(derived));
   EXPECT_THAT(recording->Files("truth"), ElementsAre(truth));
   EXPECT_THAT(recording->Files("trajectory"), ElementsAre(run));
-  EXPECT_EQ(recording->files.size(), 8u);
+  EXPECT_THAT(recording->Files("imu"), ElementsAre(imu, car));
+  EXPECT_EQ(recording->files.size(), 9u);
 }
 
 TEST_F(RecordingFolder, MustBeAFolderWithSomethingInIt) {
