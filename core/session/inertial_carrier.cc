@@ -16,6 +16,10 @@ constexpr double kLongestStretch_s = 3.0;
 // Velocities known worse say nothing.
 constexpr double kWorstVelocity_mps = 0.5;
 
+// Longer ways are taken in steps.
+constexpr std::int64_t kStep_ns = 1'000'000'000;
+constexpr std::int64_t kLongestStep_ns = 1'500'000'000;
+
 // A phone that lies still, even in a car with its engine running.
 constexpr double kStillForce_mps2 = 0.15;
 constexpr double kStillTurnRate_radps = 0.015;
@@ -128,6 +132,20 @@ bool InertialCarrier::Advance(std::int64_t from_ns, std::int64_t to_ns,
                               std::span<const RangeRateObservation> rates,
                               std::span<const RangeChangeObservation> changes,
                               MotionVerdicts* verdicts) {
+  // Rest and vehicle hold it all through a silence, of which phases tell nothing.
+  if (to_ns - from_ns > kLongestStep_ns) changes = {};
+  while (to_ns - from_ns > kLongestStep_ns) {
+    if (!Step(from_ns, from_ns + kStep_ns, {}, {}, verdicts)) return false;
+    if (!filter_.started()) return true;
+    from_ns += kStep_ns;
+  }
+  return Step(from_ns, to_ns, rates, changes, verdicts);
+}
+
+bool InertialCarrier::Step(std::int64_t from_ns, std::int64_t to_ns,
+                           std::span<const RangeRateObservation> rates,
+                           std::span<const RangeChangeObservation> changes,
+                           MotionVerdicts* verdicts) {
   bool complete = false;
   const bool by_wheels = by_wheels_;
   const std::span<const InertialSample> samples = Felt(from_ns, to_ns, &complete);

@@ -36,6 +36,8 @@ class InertialCarrier {
   void Forget();
 
  private:
+  bool Step(std::int64_t from_ns, std::int64_t to_ns, std::span<const RangeRateObservation> rates,
+            std::span<const RangeChangeObservation> changes, MotionVerdicts* verdicts);
   // What was felt in between, by the phone or else by a vehicle that tells its speed.
   std::span<const InertialSample> Felt(std::int64_t from_ns, std::int64_t to_ns, bool* complete);
   const InertialNoise& noise() const;

@@ -135,6 +135,26 @@ TEST_F(InertialCarrierTest, FollowsAVehiclesWheels) {
   EXPECT_LT(Error(carried, 89), 3.0);
 }
 
+// A receiver that gives no epochs at all meanwhile.
+TEST_F(InertialCarrierTest, GoesThroughASilence) {
+  const std::vector<ObservationEpoch> drive = filter_scene_.Drive(90);
+  const std::unique_ptr<Session> session = filter_scene_.scene.Open();
+  for (int i = 0; i < 76; ++i) {
+    if (i > 0) {
+      EXPECT_TRUE(session->PushSensors(Samples(i - 1)).ok());
+    }
+    if (i >= 60 && i < 75) continue;
+    ObservationEpoch epoch = drive[static_cast<std::size_t>(i)];
+    if (i == 75) epoch.signals.clear();
+    const SessionEstimate estimate = ProcessEpoch(session.get(), epoch);
+    if (i < 75) continue;
+    ASSERT_EQ(estimate.status, EstimateStatus::kFix);
+    EXPECT_EQ(estimate.sources, kSourceInertial);
+    EXPECT_LT(filter_scene_.HorizontalError(estimate, i), 10.0);
+    EXPECT_LT(filter_scene_.HorizontalError(estimate, i), 3.0 * estimate.accuracy_m);
+  }
+}
+
 // Two axes exchanged, as no phone has them: no worse than without.
 TEST_F(InertialCarrierTest, ASensorThatMovesOtherwiseDoesNoHarm) {
   const std::vector<SessionEstimate> alone = Run(Sensors::kNone);
