@@ -11,6 +11,7 @@
 #include "tools/lodemark/compare_table.h"
 #include "tools/lodemark/progress_bar.h"
 #include "tools/lodemark/report_landmarks.h"
+#include "tools/lodemark/report_motion.h"
 #include "tools/lodemark/report_scene.h"
 #include "tools/lodemark/report_signals.h"
 #include "tools/lodemark/report_table.h"
@@ -93,6 +94,7 @@ ReportEpoch DrawnEpoch(const TrajectoryPoint& epoch, const EpochError* error, co
   drawn.status = epoch.status;
   drawn.satellites_used = epoch.satellites_used;
   drawn.answered = epoch.has_position();
+  AddMotion(epoch, &drawn);
   if (!epoch.has_position()) return drawn;
   const double height_m = epoch.height_m.value_or(frame.origin().height_m);
   const Eigen::Vector3d enu = frame.FromEcef(
@@ -149,8 +151,9 @@ std::vector<ReportEpoch> DrawnEpochs(const RunFolder& run, const std::optional<R
   return drawn;
 }
 
-std::vector<ReportTruthPoint> DrawnTruth(const Truth& truth, const EnuFrame& frame,
-                                         std::int64_t start_ns, std::int64_t end_ns) {
+std::vector<ReportTruthPoint> DrawnTruth(const Truth& truth, const TruthVelocity& velocity,
+                                         const EnuFrame& frame, std::int64_t start_ns,
+                                         std::int64_t end_ns) {
   std::vector<ReportTruthPoint> drawn;
   const auto& points = truth.track.points();
   const std::size_t stride = (points.size() + kDrawnTruth - 1) / kDrawnTruth;
@@ -163,6 +166,7 @@ std::vector<ReportTruthPoint> DrawnTruth(const Truth& truth, const EnuFrame& fra
         frame.FromEcef(EcefFromGeodetic(PlaceOf(*point.latitude_deg, *point.longitude_deg,
                                                 point.height_m.value_or(frame.origin().height_m))));
     drawn.push_back({SecondsSince(start_ns, point.time_gps_ns), enu.x(), enu.y()});
+    AddTruthSpeed(velocity, point.time_gps_ns, &drawn.back());
   }
   return drawn;
 }
@@ -324,6 +328,8 @@ Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
   const EnuFrame frame(origin.value_or(Geodetic{}));
   std::vector<ComparedRun> compared;
   std::vector<RunErrors> all_errors;
+  std::optional<TruthVelocity> true_velocity;
+  if (truth) true_velocity.emplace(*truth);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const RunFolder& run = runs[i];
     std::optional<RunErrors> errors;
@@ -342,6 +348,7 @@ Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
     drawn.epochs = DrawnEpochs(run, errors, frame, start_ns);
     if (errors) {
       AddErrorShares(*errors, compared.back().statistics, &drawn);
+      drawn.velocity_errors = VelocityErrorsOf(run, *true_velocity);
       drawn.within_half_width = SharesWithinHalfWidths(run, *errors);
       all_errors.push_back(std::move(*errors));
     }
@@ -366,7 +373,10 @@ Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
       report.table.push_back({row.section, row.label, row.values, row.unit});
     }
   }
-  if (truth) report.truth = DrawnTruth(*truth, frame, start_ns, end_ns);
+  if (truth) {
+    report.truth = DrawnTruth(*truth, *true_velocity, frame, start_ns, end_ns);
+    report.truth_speed_by_differences = true_velocity->by_differences();
+  }
   AddFigures(compared, table, &report);
   report.start = CalendarText(start_ns);
   report.title = runs.size() == 1 ? names.front() : Format("%zu runs compared", runs.size());

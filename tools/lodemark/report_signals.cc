@@ -29,6 +29,12 @@ ReportSignalState MostFrequent(const std::array<std::int32_t, kReportSignalState
   return static_cast<ReportSignalState>(most);
 }
 
+void KeepWorst(double value, ReportSignalState state, std::optional<ReportResidual>* worst) {
+  if (std::isfinite(value) && (!*worst || std::abs(value) > std::abs((*worst)->value))) {
+    *worst = ReportResidual{value, state};
+  }
+}
+
 }  // namespace
 
 ReportSignals::ReportSignals(std::int64_t first_gps_ns, std::int64_t last_gps_ns,
@@ -54,6 +60,8 @@ void ReportSignals::Add(const RunSignal& row) {
     track.states.resize(slices_);
     track.signal.cn0_dbhz.resize(slices_);
     track.signal.direction_deg.resize(slices_);
+    track.signal.code_residual_sigmas.resize(slices_);
+    track.signal.rate_residual_mps.resize(slices_);
     track.cn0.resize(slices_);
     found = tracks_.emplace(std::pair(satellite_, signal_), std::move(track)).first;
   }
@@ -81,6 +89,17 @@ void ReportSignals::Add(const RunSignal& row) {
   }
   if (row.azimuth_deg && row.elevation_deg) {
     signal.direction_deg[slice] = std::array{*row.azimuth_deg, *row.elevation_deg};
+  }
+  if (row.residual_m && row.sigma_m && *row.sigma_m > 0.0) {
+    const double sigmas = *row.residual_m / *row.sigma_m;
+    KeepWorst(sigmas, state, &signal.code_residual_sigmas[slice]);
+    if (row.used) {
+      ++signal.code_residuals;
+      if (std::abs(sigmas) > 3.0) ++signal.beyond_3_sigma;
+    }
+  }
+  if (row.range_rate_residual_mps) {
+    KeepWorst(*row.range_rate_residual_mps, state, &signal.rate_residual_mps[slice]);
   }
   if (row.used && row.residual_m) {
     track.squared_residuals_m2 += *row.residual_m * *row.residual_m;

@@ -112,6 +112,8 @@ Status ReadRunSignals(const std::string& folder, const std::function<void(const 
   const int used = table->Column("used");
   const int reason = table->Column("reason");
   const int residual = table->Column("residual_m");
+  const int sigma = table->Column("sigma_m");
+  const int rate_residual = table->Column("range_rate_residual_mps");
   const int elevation = table->Column("elevation_deg");
   const int azimuth = table->Column("azimuth_deg");
   const int cn0 = table->Column("cn0_dbhz");
@@ -128,6 +130,8 @@ Status ReadRunSignals(const std::string& folder, const std::function<void(const 
     row.used = table->Text(used) == "1";
     row.reason = table->Text(reason);
     row.residual_m = table->Number(residual);
+    row.sigma_m = table->Number(sigma);
+    row.range_rate_residual_mps = table->Number(rate_residual);
     row.elevation_deg = table->Number(elevation);
     row.azimuth_deg = table->Number(azimuth);
     row.cn0_dbhz = table->Number(cn0);

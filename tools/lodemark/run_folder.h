@@ -29,6 +29,8 @@ struct RunSignal {
   bool used = false;
   std::string_view reason;
   std::optional<double> residual_m;
+  std::optional<double> sigma_m;
+  std::optional<double> range_rate_residual_mps;
   std::optional<double> elevation_deg;
   std::optional<double> azimuth_deg;
   std::optional<double> cn0_dbhz;

@@ -38,4 +38,16 @@ void AppendColumn(const char* name, const Items& items, double scale, Function v
   AppendArray(name, items, [&](const auto& item) { AppendScaled(value(item), scale, json); }, json);
 }
 
+// The same, but empty where no item has a value.
+template <typename Items, typename Function>
+void AppendKnownColumn(const char* name, const Items& items, double scale, Function value,
+                       std::string* json) {
+  for (const auto& item : items) {
+    if (!value(item)) continue;
+    AppendColumn(name, items, scale, value, json);
+    return;
+  }
+  *json += JsonString(name) + ":[]";
+}
+
 }  // namespace lodemark

@@ -18,6 +18,8 @@ struct ReportTruthPoint {
   double time_s = 0.0;
   double east_m = 0.0;
   double north_m = 0.0;
+  std::optional<double> speed_mps = {};  // horizontal
+  std::optional<double> climb_mps = {};
 };
 
 struct ReportEllipse {
@@ -42,7 +44,19 @@ struct ReportEpoch {
   std::optional<double> up_error_m;
   std::optional<double> nees;  // squared error in units of its covariance: 3 on average if honest
   std::optional<int> satellites_used;
-  std::string status;  // "fix", or why there is no answer
+  std::optional<double> speed_mps;           // horizontal
+  std::optional<double> climb_mps;           // upwards
+  std::optional<double> speed_accuracy_mps;  // 68 % radius of the horizontal velocity
+  std::optional<double> clock_bias_m;        // receiver minus GPS, times the speed of light
+  std::optional<double> clock_drift_mps;
+  std::string sources;  // "gnss", "gnss+inertial": what carried the answer, joined by '+'
+  std::string status;   // "fix", or why there is no answer
+};
+
+// The residual of largest magnitude in a slice of time, and what became of its signal.
+struct ReportResidual {
+  double value = 0.0;
+  ReportSignalState state = ReportSignalState::kUsed;
 };
 
 // One signal of one satellite. The slices divide the run's span evenly; a state is that of most of
@@ -53,13 +67,24 @@ struct ReportSignal {
   std::vector<ReportSignalState> states;
   std::vector<std::optional<double>> cn0_dbhz;
   std::vector<std::optional<std::array<double, 2>>> direction_deg;  // azimuth, elevation
-  std::int64_t seen = 0;                                            // epochs
-  std::int64_t used = 0;                                            // down-weighted ones included
+  std::vector<std::optional<ReportResidual>> code_residual_sigmas;
+  std::vector<std::optional<ReportResidual>> rate_residual_mps;
+  std::int64_t code_residuals = 0;  // of used epochs
+  std::int64_t beyond_3_sigma = 0;  // of these
+  std::int64_t seen = 0;            // epochs
+  std::int64_t used = 0;            // down-weighted ones included
   std::int64_t down_weighted = 0;
   std::int64_t rejected = 0;
   std::string main_reason;  // the most frequent reason for not being used
   std::optional<double> mean_cn0_dbhz;
   std::optional<double> rms_residual_m;  // of used epochs
+};
+
+// Magnitudes of estimate minus truth, over all epochs.
+struct ReportVelocityErrors {
+  std::optional<std::array<double, 2>> horizontal_mps;  // 50 and 95 % below
+  std::optional<std::array<double, 2>> up_mps;
+  std::optional<double> within_accuracy;  // share inside the stated 68 % radius
 };
 
 struct ReportEvent {
@@ -82,6 +107,7 @@ struct ReportRun {
   std::optional<double> within_accuracy;  // share inside the stated 68 % radius
   std::optional<double> mean_nees;
   std::optional<double> nees_in_band;  // share within the middle 95 % of chi-square
+  ReportVelocityErrors velocity_errors;
   std::vector<ReportSignal> signals;
   std::vector<ReportEvent> events;
   std::int64_t event_count = 0;
@@ -112,8 +138,9 @@ struct Report {
   std::vector<ReportTableRow> table;
   std::vector<ReportRun> runs;
   ReportScene scene;
-  std::vector<ReportTruthPoint> truth;  // empty: none known; one: a place at rest
-  std::string start;                    // date and time of time_s = 0, for the reader
+  std::vector<ReportTruthPoint> truth;      // empty: none known; one: a place at rest
+  bool truth_speed_by_differences = false;  // of its positions, as it states no velocity
+  std::string start;                        // date and time of time_s = 0, for the reader
 };
 
 // The whole page. Texts may hold anything; they arrive on the page as text.

@@ -2,6 +2,7 @@
 #include <map>
 
 #include "tools/report/json_columns.h"
+#include "tools/report/motion_data.h"
 #include "tools/report/report.h"
 #include "tools/report/scene_data.h"
 
@@ -90,9 +91,11 @@ void AppendEpochs(const std::vector<ReportEpoch>& epochs, std::string* json) {
   AppendArray(
       "status", epochs,
       [&](const ReportEpoch& e) { AppendInteger(places.find(e.status)->second, json); }, json);
+  *json += ',';
+  AppendMotion(epochs, json);
 }
 
-void AppendSignal(const ReportSignal& signal, std::string* json) {
+void AppendSignal(const ReportSignal& signal, double rate_step_mps, std::string* json) {
   *json += "{\"sat\":" + JsonString(signal.satellite) + ",\"sig\":" + JsonString(signal.signal);
   *json += ",\"states\":\"";
   for (const ReportSignalState state : signal.states) *json += StateLetter(state);
@@ -118,6 +121,8 @@ void AppendSignal(const ReportSignal& signal, std::string* json) {
   AppendColumn("az", signal.direction_deg, 1.0, part(0), json);
   *json += ',';
   AppendColumn("el", signal.direction_deg, 1.0, part(1), json);
+  *json += ',';
+  AppendResiduals(signal, rate_step_mps, json);
   *json += '}';
 }
 
@@ -142,8 +147,14 @@ void AppendRun(const ReportRun& run, std::string* json) {
   *json += ",\"neesInBand\":";
   AppendScaled(run.nees_in_band, 1e3, json);
   *json += ',';
+  AppendVelocityErrors(run.velocity_errors, json);
+  const double rate_step_mps = RateStep_mps(run.signals);
+  *json += ",\"rateStep\":";
+  AppendScaled(rate_step_mps, 1e4, json);
+  *json += ',';
   AppendArray(
-      "signals", run.signals, [json](const ReportSignal& s) { AppendSignal(s, json); }, json);
+      "signals", run.signals, [&](const ReportSignal& s) { AppendSignal(s, rate_step_mps, json); },
+      json);
   *json += ',';
   AppendArray(
       "events", run.events,
@@ -171,6 +182,12 @@ std::string ReportDataJson(const Report& report) {
   AppendColumn("e", report.truth, 1e2, [](const Point& p) { return Number(p.east_m); }, &json);
   json += ',';
   AppendColumn("n", report.truth, 1e2, [](const Point& p) { return Number(p.north_m); }, &json);
+  json += ',';
+  AppendKnownColumn("speed", report.truth, 1e2, [](const Point& p) { return p.speed_mps; }, &json);
+  json += ',';
+  AppendKnownColumn("climb", report.truth, 1e2, [](const Point& p) { return p.climb_mps; }, &json);
+  json += ",\"byDifferences\":";
+  json += report.truth_speed_by_differences ? "true" : "false";
   json += "},";
   AppendScene(report.scene, &json);
   json += ',';
