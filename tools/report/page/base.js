@@ -2,15 +2,17 @@
 const data = JSON.parse(document.getElementById('data').textContent);
 const column = (values, scale) => values.map(v => (v === null ? NaN : v * scale));
 
-data.truth = {t: column(data.truth.t, 1e-3), e: column(data.truth.e, 1e-2), n: column(data.truth.n, 1e-2)};
+for (const name of ['e', 'n', 'speed', 'climb']) data.truth[name] = column(data.truth[name], 1e-2);
+data.truth.t = column(data.truth.t, 1e-3);
 data.runs.forEach((run, index) => {
   run.index = index;
   run.color = `var(--run${index % 5})`;
   run.visible = true;
   run.t = column(run.t, 1e-3);
-  for (const name of ['e', 'n', 'u', 'acc', 'vacc', 'ee', 'en', 'eu', 'we', 'wn', 'pl', 'vpl', 'nees', 'cdf']) run[name] = column(run[name], 1e-2);
+  for (const name of ['e', 'n', 'u', 'acc', 'vacc', 'ee', 'en', 'eu', 'we', 'wn', 'pl', 'vpl', 'nees', 'cdf', 'speed', 'climb', 'sacc', 'drift']) run[name] = column(run[name], 1e-2);
   run.chance = column(run.chance, 1e-3);
   run.used = column(run.used, 1);
+  run.bias = column(run.bias, 0.1);
   run.span *= 1e-3;
   for (const of of run.sights) for (const name of ['rx', 'ry']) of[name] = column(of[name], 1e-2);
   run.hasErrors = run.ee.some(Number.isFinite);

@@ -173,6 +173,6 @@ function describeEpoch(run, i) {
 }
 
 function mapSummary() {
-  const parts = data.runs.map(run => `${run.name}: ${run.count} epochs`);
+  const parts = data.runs.map(run => `${run.name}: ${run.count} ${run.count === 1 ? 'epoch' : 'epochs'}`);
   return `Map of ${parts.join('; ')}${data.truth.e.length ? ', with the truth' : ''}${hasLandmarks ? ', landmarks' : ''}${data.scene.buildings.length ? ', buildings' : ''}. The figures are in the results table.`;
 }
