@@ -84,18 +84,18 @@ Result<std::vector<ComparedRun>> CompareAll(const CompareOptions& options, const
 
 void PrintRemarks(const std::vector<ComparedRun>& runs, const Truth& truth) {
   if (truth.report.rows_skipped > 0) {
-    PrintMessage(Format("%lld malformed rows skipped, the first is ",
-                        static_cast<long long>(truth.report.rows_skipped)) +
+    PrintMessage(Counted(truth.report.rows_skipped, "malformed row") + " skipped, the first is " +
                  FormatProblem(truth.file, truth.report.problems.front()));
   }
   for (const ComparedRun& run : runs) {
     if (run.rows_skipped > 0) {
-      PrintMessage(run.path + ": " + GroupDigits(run.rows_skipped) +
-                   " malformed rows of trajectory.csv skipped");
+      PrintMessage(run.path + ": " + Counted(run.rows_skipped, "malformed row") +
+                   " of trajectory.csv skipped");
     }
     if (run.epochs_without_truth > 0) {
       PrintMessage(run.path + ": " + Counted(run.epochs_without_truth, "epoch") +
-                   " without truth do not count");
+                   (run.epochs_without_truth == 1 ? " without truth does not count"
+                                                  : " without truth do not count"));
     }
   }
 }

@@ -98,15 +98,13 @@ TextTable CompareTable(const std::vector<ComparedRun>& runs) {
   const auto violations = [](const Share& share) {
     return share.of > 0 ? GroupDigits(share.count) : std::string();
   };
-  table.AddRow(
-      "beyond protection level",
-      Each(runs, [&](const ErrorStatistics& s) { return violations(s.beyond_protection); }),
-      "epochs");
-  table.AddRow(
-      "beyond vertical one",
-      Each(runs,
-           [&](const ErrorStatistics& s) { return violations(s.beyond_vertical_protection); }),
-      "epochs");
+  const auto add_violations = [&](const char* label, Share ErrorStatistics::* share) {
+    const auto counts = Each(runs, [&](const ErrorStatistics& s) { return violations(s.*share); });
+    const bool one = runs.size() == 1 && counts.front() == "1";
+    table.AddRow(label, counts, one ? "epoch" : "epochs");
+  };
+  add_violations("beyond protection level", &ErrorStatistics::beyond_protection);
+  add_violations("beyond vertical one", &ErrorStatistics::beyond_vertical_protection);
   return table;
 }
 

@@ -237,11 +237,11 @@ Status GatherSignals(const RunFolder& run, std::int64_t start_ns, std::int64_t e
   drawn->signals = signals.Finish();
   if (report.rows_skipped > 0) {
     remarks->push_back(FormatProblem(report.file, report.problems.front()) + " (" +
-                       GroupDigits(report.rows_skipped) + " such rows skipped)");
+                       Counted(report.rows_skipped, "such row") + " skipped)");
   }
   if (signals.rows_left_out() > 0) {
     remarks->push_back(report.file + ": names more signals than can be drawn; " +
-                       GroupDigits(signals.rows_left_out()) + " rows left out");
+                       Counted(signals.rows_left_out(), "row") + " left out");
   }
   return {};
 }
@@ -258,7 +258,7 @@ Status GatherEvents(const RunFolder& run, std::int64_t start_ns, ReportRun* draw
   }
   if (report.rows_skipped > 0) {
     remarks->push_back(FormatProblem(report.file, report.problems.front()) + " (" +
-                       GroupDigits(report.rows_skipped) + " such lines skipped)");
+                       Counted(report.rows_skipped, "such line") + " skipped)");
   }
   return {};
 }
@@ -277,7 +277,7 @@ RunLandmarks GatherLandmarks(const RunFolder& run, const std::vector<ListedPhoto
     remarks->push_back(read.error().message + " (landmarks left out)");
   } else if (report.rows_skipped > 0) {
     remarks->push_back(FormatProblem(report.file, report.problems.front()) + " (" +
-                       GroupDigits(report.rows_skipped) + " such rows skipped)");
+                       Counted(report.rows_skipped, "such row") + " skipped)");
   }
   return landmarks;
 }
@@ -357,8 +357,9 @@ Result<ReportContent> GatherReport(const std::vector<std::string>& run_paths,
     const Status events = GatherEvents(run, start_ns, &drawn, &content.remarks);
     if (!events.ok()) return events.error();
     if (run.trajectory_report.rows_skipped > 0) {
-      content.remarks.push_back(run.path + ": " + GroupDigits(run.trajectory_report.rows_skipped) +
-                                " malformed rows of trajectory.csv skipped");
+      content.remarks.push_back(run.path + ": " +
+                                Counted(run.trajectory_report.rows_skipped, "malformed row") +
+                                " of trajectory.csv skipped");
     }
     for (const TrajectoryPoint& epoch : run.epochs) content.any_estimate |= epoch.has_position();
     report.runs.push_back(std::move(drawn));

@@ -99,7 +99,7 @@ void AddFigures(const std::vector<ComparedRun>& compared, const TextTable& table
     if (several && s.horizontal_m.count > 0) continue;
     report->figures.push_back(
         {several ? run.name + ": coverage" : "Coverage", Format("%.1f", 100.0 * s.coverage()), "%",
-         GroupDigits(s.answered_epochs) + " of " + GroupDigits(s.expected_epochs) + " epochs"});
+         GroupDigits(s.answered_epochs) + " of " + Counted(s.expected_epochs, "epoch")});
     if (s.within_accuracy.of > 0) {
       report->figures.push_back({"Within stated accuracy",
                                  Format("%.0f", 100.0 * s.within_accuracy.value()), "%",

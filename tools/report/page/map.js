@@ -168,7 +168,7 @@ function describeEpoch(run, i) {
   const parts = [];
   if (Number.isFinite(run.ee[i])) parts.push(`${metres(Math.hypot(run.ee[i], run.en[i]))} off`);
   if (Number.isFinite(run.acc[i])) parts.push(`±${metres(run.acc[i])} stated`);
-  if (Number.isFinite(run.used[i])) parts.push(`${run.used[i]} signals`);
+  if (Number.isFinite(run.used[i])) parts.push(`${run.used[i]} ${run.used[i] === 1 ? 'signal' : 'signals'}`);
   return name + (parts.join(', ') || 'answered');
 }
 
