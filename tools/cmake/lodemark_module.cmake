@@ -16,7 +16,10 @@ target_compile_options(
             # g++ 12 sees overlaps in std::string concatenation that are not there (GCC PR 105651).
             $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
             # And unset values in Eigen's matrices of bounded size, which are set.
-            $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+            $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
+            # What nobody calls is left out of the library.
+            $<$<CONFIG:Release>:-ffunction-sections>
+            $<$<CONFIG:Release>:-fdata-sections>)
 target_include_directories(lodemark_flags INTERFACE ${CMAKE_SOURCE_DIR}
                                                     ${CMAKE_SOURCE_DIR}/core/include)
 
