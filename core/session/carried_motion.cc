@@ -1,6 +1,12 @@
 #include "core/session/carried_motion.h"
 
 namespace lodemark {
+namespace {
+
+// Two or three seconds until inertial sensors are found out, at the speed of a city.
+constexpr double kMisled_m = 15.0;
+
+}  // namespace
 
 Eigen::Vector3d CarriedMotion::position_in_ecef() const {
   return inertial() ? inertial_.filter().state().position_in_ecef : motion_.position_in_ecef();
@@ -43,11 +49,18 @@ void CarriedMotion::Advance(std::int64_t from_ns, std::int64_t to_ns,
     const InertialState& state = inertial_.filter().state();
     before.mean << state.position_in_ecef, state.velocity_in_ecef_mps;
     before.covariance = inertial_.filter().covariance().topLeftCorner<6, 6>();
+    const Eigen::Matrix3d place_m2 = inertial_.filter().PositionCovarianceEnu();
     const bool reached = inertial_.Advance(from_ns, to_ns, rates, changes, verdicts);
     if (reached && inertial()) return;
-    // Back to what moves by itself, from where it was.
+    // Back to what moves by itself, from where it was. What was proven wrong has misled it for some
+    // seconds, above all in its velocity.
     inertial_.Forget();
-    motion_.Start(before);
+    if (reached) {
+      motion_.Start(before.mean.head<3>(),
+                    place_m2 + kMisled_m * kMisled_m * Eigen::Matrix3d::Identity());
+    } else {
+      motion_.Start(before);
+    }
   }
   motion_.Advance(1e-9 * static_cast<double>(to_ns - from_ns), rates, changes, model, verdicts);
   if (!motion_.started()) return;

@@ -169,6 +169,31 @@ TEST_F(InertialCarrierTest, ASensorThatMovesOtherwiseDoesNoHarm) {
   EXPECT_LT(Error(misled, 89), Error(alone, 89) + 1.0);
 }
 
+// A sensor that breaks on the way: five times the turn, the force turned round.
+TEST_F(InertialCarrierTest, LeavesASensorThatBreaks) {
+  const std::vector<ObservationEpoch> drive = filter_scene_.Drive(60);
+  const std::unique_ptr<Session> session = filter_scene_.scene.Open();
+  for (int i = 0; i < 60; ++i) {
+    std::vector<SensorSample> samples;
+    if (i > 0) samples = Samples(i - 1);
+    for (SensorSample& sample : samples) {
+      if (i > 30) sample.value *= sample.kind == SensorKind::kGyroscope ? 5.0 : -1.0;
+    }
+    EXPECT_TRUE(session->PushSensors(samples).ok());
+    const SessionEstimate estimate =
+        ProcessEpoch(session.get(), drive[static_cast<std::size_t>(i)]);
+    if (i == 29) {
+      EXPECT_EQ(estimate.sources, kSourceGnss | kSourceInertial);
+    }
+    if (i == 34) {
+      EXPECT_EQ(estimate.sources, kSourceGnss);
+    }
+    if (i < 36) continue;
+    EXPECT_LT(filter_scene_.HorizontalError(estimate, i), 3.0 * estimate.accuracy_m) << i;
+    EXPECT_LT(filter_scene_.HorizontalError(estimate, i), 15.0) << i;
+  }
+}
+
 TEST_F(InertialCarrierTest, GoesOnWhereTheSamplesEnd) {
   const std::vector<SessionEstimate> alone = Run(Sensors::kNone);
   const std::vector<SessionEstimate> halfway = Run(Sensors::kUntilHalf);
