@@ -9,6 +9,7 @@
 #include <new>
 #include <vector>
 
+#include "test/unit/fusion/inertial_scene.h"
 #include "test/unit/session/session_scene.h"
 
 namespace {
@@ -163,6 +164,37 @@ TEST(SessionAllocation, SensorSamplesAllocateNothingAfterTheFirst) {
     taken = session->PushSensors(samples).ok() && taken;
   }
   EXPECT_TRUE(taken);
+  EXPECT_EQ(allocations - before, 0);
+}
+
+// A bending drive with an inertial sensor of a hundred samples a second, carried by it.
+TEST(SessionAllocation, InertialEpochsAllocateNothingInTheSteadyState) {
+  SessionScene scene;
+  const InertialScene drive(scene.place);
+  scene.path = [&drive](double seconds) { return drive.PlaceAt(seconds); };
+  const std::vector<ObservationEpoch> epochs = WithoutRising(scene);
+  std::vector<std::vector<SensorSample>> samples(epochs.size());
+  for (std::size_t i = 1; i < epochs.size(); ++i) {
+    for (const InertialSample& felt :
+         drive.Felt(static_cast<double>(i) - 1.0, static_cast<double>(i) - 0.01)) {
+      const std::int64_t time_ns = kSceneStart_ns + felt.time_ns;
+      samples[i].push_back({SensorKind::kAccelerometer, time_ns, felt.specific_force_mps2});
+      samples[i].push_back({SensorKind::kGyroscope, time_ns, felt.turn_rate_radps});
+    }
+  }
+  scene.options.estimator = Estimator::kFilter;
+  const std::unique_ptr<Session> session = scene.Open();
+  std::int64_t before = 0;
+  for (std::size_t i = 0; i < epochs.size(); ++i) {
+    if (i == epochs.size() / 2) {
+      ASSERT_EQ(session->estimate().sources, kSourceGnss | kSourceInertial);
+      before = allocations;
+    }
+    ASSERT_TRUE(session->PushSensors(samples[i]).ok());
+    (void)session->PushObservationEpoch(0, epochs[i]);
+    ASSERT_TRUE(session->ProcessNext());
+  }
+  EXPECT_EQ(session->estimate().sources, kSourceGnss | kSourceInertial);
   EXPECT_EQ(allocations - before, 0);
 }
 
