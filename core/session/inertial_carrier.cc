@@ -176,7 +176,8 @@ const InertialNoise& InertialCarrier::noise() const {
 }
 
 void InertialCarrier::HearRest(std::span<const InertialSample> samples, double seconds) {
-  if (seconds < kShortestRest_s) return;
+  // Wheels say themselves that they stand, and a car that rolls evenly feels nothing either.
+  if (by_wheels_ || seconds < kShortestRest_s) return;
   const InertialState& state = filter_.state();
   if (state.velocity_in_ecef_mps.norm() >
       kStillSpeed_mps + 3.0 * std::sqrt(filter_.VelocityCovarianceEnu().trace())) {
