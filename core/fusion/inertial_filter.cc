@@ -1,10 +1,10 @@
 #include "core/fusion/inertial_filter.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "core/fusion/hear_place.h"
 #include "core/geo/geodetic.h"
 #include "core/geo/gravity.h"
 #include "core/geo/rotation.h"
@@ -216,17 +216,8 @@ PositionStatement InertialFilter::Place() const {
 }
 
 void InertialFilter::Hear(const PositionStatement& said) {
-  const Eigen::Matrix3d enu_from_ecef =
-      EnuFromEcefRotation(GeodeticFromEcef(state_.position_in_ecef));
-  const Eigen::Matrix3d information =
-      enu_from_ecef.transpose() * said.information_pm2 * enu_from_ecef;
-  const Eigen::Matrix<double, kInertialErrors, 3> cross = covariance_.leftCols<3>();
-  // (I + L P)^-1 L is the inverse of the innovation's covariance P + L^-1, L deficient or not.
-  const Eigen::Matrix3d shrink =
-      (Eigen::Matrix3d::Identity() + information * covariance_.topLeftCorner<3, 3>()).inverse();
-  const InertialMatrix after = covariance_ - cross * (shrink * information) * cross.transpose();
-  covariance_ = 0.5 * (after + after.transpose());
-  Correct(cross * (shrink * (enu_from_ecef.transpose() * said.pull_pm)));
+  Correct(HearPlace(said, EnuFromEcefRotation(GeodeticFromEcef(state_.position_in_ecef)),
+                    &covariance_));
 }
 
 bool InertialFilter::HearVelocity(const Eigen::Vector3d& velocity_in_ecef_mps, double sigma_mps) {

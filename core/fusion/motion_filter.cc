@@ -1,8 +1,8 @@
 #include "core/fusion/motion_filter.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 
+#include "core/fusion/hear_place.h"
 #include "core/geo/geodetic.h"
 
 namespace lodemark {
@@ -92,18 +92,9 @@ PositionStatement MotionFilter::Place() const {
 }
 
 void MotionFilter::Hear(const PositionStatement& said) {
-  const Eigen::Matrix3d enu_from_ecef =
-      EnuFromEcefRotation(GeodeticFromEcef(step_.filtered.mean.head<3>()));
-  const Eigen::Matrix3d information =
-      enu_from_ecef.transpose() * said.information_pm2 * enu_from_ecef;
-  MotionMatrix& covariance = step_.filtered.covariance;
-  const Eigen::Matrix<double, 6, 3> cross = covariance.leftCols<3>();
-  // (I + L P)^-1 L is the inverse of the innovation's covariance P + L^-1, L deficient or not.
-  const Eigen::Matrix3d shrink =
-      (Eigen::Matrix3d::Identity() + information * covariance.topLeftCorner<3, 3>()).inverse();
-  step_.filtered.mean += cross * (shrink * (enu_from_ecef.transpose() * said.pull_pm));
-  const MotionMatrix after = covariance - cross * (shrink * information) * cross.transpose();
-  covariance = 0.5 * (after + after.transpose());
+  MotionState& state = step_.filtered;
+  state.mean += HearPlace(said, EnuFromEcefRotation(GeodeticFromEcef(state.mean.head<3>())),
+                          &state.covariance);
 }
 
 Eigen::Matrix3d MotionFilter::CovarianceEnu(Eigen::Index first) const {

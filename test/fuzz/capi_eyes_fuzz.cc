@@ -1,55 +1,31 @@
 // Any sequence of calls on lenses, photographs, maps and resections with any values: every answer
 // keeps the promises of lodemark.h.
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "lodemark/lodemark.h"
 #include "test/capi/photo_scene.h"
 #include "test/fuzz/call_bytes.h"
+#include "test/fuzz/scene_file.h"
 
 namespace {
 
 using lodemark::test::Bytes;
 using lodemark::test::Disturb;
 using lodemark::test::kOrigin_geodetic;
-using lodemark::test::PhotoScene;
 using lodemark::test::Require;
+using lodemark::test::RequireFinite;
+using lodemark::test::Scene;
 using lodemark::test::Seen;
 using lodemark::test::Sized;
 
 // Memory and time are not the question: photographs have at most so many pixels.
 constexpr std::int64_t kMostPixels = 40'000;
-
-struct SceneFile {
-  SceneFile()
-      : path(std::filesystem::temp_directory_path() /
-             ("capi_eyes_" + std::to_string(getpid()) + ".map")),
-        scene(path) {
-    Require(scene.problem.empty());
-  }
-  ~SceneFile() { std::remove(path.c_str()); }
-  std::string path;
-  PhotoScene scene;
-};
-
-const SceneFile& Scene() {
-  static const SceneFile file;
-  return file;
-}
-
-template <std::size_t kCount>
-void RequireFinite(const double (&values)[kCount]) {
-  for (const double value : values) Require(std::isfinite(value));
-}
 
 class Sequence {
  public:
@@ -116,12 +92,12 @@ class Sequence {
 
   // The lens of a part of the scene's photograph, which the map knows.
   void TakeCrop() {
-    lens_ = Scene().scene.lens;
+    lens_ = Scene().scene().lens;
     const int left = bytes_.Take<std::uint8_t>() * 2 % (640 - 180);
     const int top = bytes_.Take<std::uint8_t>() % (480 - 180);
     photo_.clear();
     for (int y = top; y < top + 180; ++y) {
-      const std::uint8_t* row = Scene().scene.photo.data() + y * lens_.width_px + left;
+      const std::uint8_t* row = Scene().scene().photo.data() + y * lens_.width_px + left;
       photo_.insert(photo_.end(), row, row + 180);
     }
     lens_.width_px = lens_.height_px = 180;
@@ -235,7 +211,7 @@ class Sequence {
     const std::string odd = "/no/such/" + bytes_.TakeText(bytes_.Take<std::uint8_t>() % 16u);
     const bool is_odd = odd.size() > 10;
     const lodemark_status status =
-        Seen(lodemark_map_open(is_odd ? odd.c_str() : Scene().path.c_str(), &map_));
+        Seen(lodemark_map_open(is_odd ? odd.c_str() : Scene().path().c_str(), &map_));
     Require((status == LODEMARK_OK) == !is_odd && (map_ != nullptr) == !is_odd);
   }
 
@@ -251,7 +227,7 @@ class Sequence {
   lodemark_view_prior TakePrior() {
     auto prior = Sized<lodemark_view_prior>();
     prior.present = bytes_.Take<std::uint8_t>() % 16;
-    const auto& at = Scene().scene.camera_in_ecef_m;
+    const auto& at = Scene().scene().camera_in_ecef_m;
     for (std::size_t i = 0; i < 3; ++i) {
       prior.position_in_ecef_m[i] = at[i] + bytes_.Take<std::int8_t>();
       prior.position_covariance_enu_m2[4 * i] = 1.0 + bytes_.Take<std::uint8_t>();

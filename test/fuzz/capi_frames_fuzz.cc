@@ -1,13 +1,9 @@
 // Any sequence of calls on sessions that use a map, photographs and epochs among them, in any order
 // of time: every answer keeps the promises of lodemark.h.
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -15,46 +11,26 @@
 #include "test/capi/constellation.h"
 #include "test/capi/photo_scene.h"
 #include "test/fuzz/call_bytes.h"
+#include "test/fuzz/scene_file.h"
 
 namespace {
 
 using lodemark::test::Bytes;
 using lodemark::test::Constellation;
 using lodemark::test::Disturb;
-using lodemark::test::PhotoScene;
 using lodemark::test::Require;
+using lodemark::test::RequireFinite;
+using lodemark::test::Scene;
 using lodemark::test::Seen;
 using lodemark::test::Sized;
 using lodemark::test::StillPhone;
 
 constexpr std::int32_t kCrop_px = 120;  // time is not the question
 
-struct SceneFile {
-  SceneFile()
-      : path(std::filesystem::temp_directory_path() /
-             ("capi_frames_" + std::to_string(getpid()) + ".map")),
-        scene(path) {
-    Require(scene.problem.empty());
-  }
-  ~SceneFile() { std::remove(path.c_str()); }
-  std::string path;
-  PhotoScene scene;
-};
-
-const SceneFile& Scene() {
-  static const SceneFile file;
-  return file;
-}
-
-template <std::size_t kCount>
-void RequireFinite(const double (&values)[kCount]) {
-  for (const double value : values) Require(std::isfinite(value));
-}
-
 class Sequence {
  public:
   explicit Sequence(Bytes bytes) : bytes_(bytes) {
-    Require(lodemark_map_open(Scene().path.c_str(), &map_) == LODEMARK_OK);
+    Require(lodemark_map_open(Scene().path().c_str(), &map_) == LODEMARK_OK);
     OpenSession();
     UseMap();
   }
@@ -116,13 +92,13 @@ class Sequence {
 
   // A part of the scene's photograph, which the map knows, or nothing but noise.
   void PushImage() {
-    lodemark_lens lens = Scene().scene.lens;
+    lodemark_lens lens = Scene().scene().lens;
     const std::int32_t left = bytes_.Take<std::uint8_t>() * 2 % (lens.width_px - kCrop_px);
     const std::int32_t top = bytes_.Take<std::uint8_t>() % (lens.height_px - kCrop_px);
     const bool is_noise = bytes_.Take<std::uint8_t>() % 8 == 7;
     std::vector<std::uint8_t> photo;
     for (std::int32_t y = top; y < top + kCrop_px; ++y) {
-      const std::uint8_t* row = Scene().scene.photo.data() + y * lens.width_px + left;
+      const std::uint8_t* row = Scene().scene().photo.data() + y * lens.width_px + left;
       photo.insert(photo.end(), row, row + kCrop_px);
     }
     for (std::size_t i = 0; is_noise && i < photo.size(); ++i) {
@@ -146,7 +122,7 @@ class Sequence {
 
   void PushEpoch() {
     double place[3];
-    lodemark_geodetic_from_ecef(Scene().scene.camera_in_ecef_m, place);
+    lodemark_geodetic_from_ecef(Scene().scene().camera_in_ecef_m, place);
     place[1] += bytes_.Take<std::int8_t>() * 1e-5;
     StillPhone phone(place, 100.0);
     phone.Measure(TakeTime());
