@@ -17,6 +17,9 @@ constexpr std::size_t kSuspects = 3;
 
 constexpr double kConverged_m = 1e-4;
 constexpr double kSmallGain = 1e-6;  // of -log density, with a step of centimetres
+// Ranges to satellites are rounded to 4e-9 m, and the cost that follows from thirty of them to some
+// 1e-9. Whether it fell by less is chance, which must not shorten a step.
+constexpr double kCostRounding = 1e-7;
 
 // A mode this near in every direction, in sigmas, is the same.
 constexpr double kSameMode = 0.1;
@@ -177,7 +180,7 @@ int Descend(PointProblem* problem, int largest_iterations) {
       problem->MoveTo(point);
       problem->Step(scale * step);
       new_cost = Cost(*problem);
-      if (new_cost <= cost) {
+      if (new_cost <= cost + kCostRounding) {
         better = true;
         break;
       }
