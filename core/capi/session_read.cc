@@ -63,6 +63,7 @@ static_assert(LODEMARK_EVENT_SENSOR_DROPPED == static_cast<int>(EventKind::kSens
 static_assert(LODEMARK_EVENT_FILTER_RESTARTED == static_cast<int>(EventKind::kFilterRestarted));
 static_assert(LODEMARK_EVENT_INERTIAL_ALIGNED == static_cast<int>(EventKind::kInertialAligned));
 static_assert(LODEMARK_EVENT_INERTIAL_LOST == static_cast<int>(EventKind::kInertialLost));
+static_assert(LODEMARK_EVENT_PHOTO_TOO_LATE == static_cast<int>(EventKind::kPhotoTooLate));
 
 static_assert(LODEMARK_PHOTO_NONE == static_cast<int>(PhotoOutcome::kNone));
 static_assert(LODEMARK_PHOTO_USED == static_cast<int>(PhotoOutcome::kUsed));

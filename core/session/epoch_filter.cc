@@ -4,7 +4,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/geo/geodetic.h"
 
@@ -127,7 +126,7 @@ void EpochFilter::Move(std::int64_t time_ns) {
     verdicts_ = MotionVerdicts();
     return;
   }
-  MakeRoomForAStep();
+  if (remembers_) steps_.list.MakeRoom();
   const std::int64_t from_ns = time_ns_;
   time_ns_ = time_ns;
   if (!filter_.started()) return;
@@ -138,23 +137,24 @@ void EpochFilter::Move(std::int64_t time_ns) {
   silent_s_ += seconds;
   if (silent_s_ > kLongestCounting_s) epochs_ = kVeryMany;
   filter_.Advance(from_ns, time_ns, rates_, changes_, accelerations_.After(silent_s_), &verdicts_);
-  if (remembers_ && filter_.started()) steps_.push_back(filter_.step());
+  if (filter_.started()) NoteStep();
 }
 
 void EpochFilter::Start(const Eigen::Vector3d& position_in_ecef,
                         const Eigen::Matrix3d& covariance_enu_m2) {
-  MakeRoomForAStep();
+  if (remembers_) steps_.list.MakeRoom();
   filter_.Start(position_in_ecef, covariance_enu_m2);
   silent_s_ = kUsual_s;
   unexplained_s_ = 0.0;
-  if (remembers_) steps_.push_back(filter_.step());
+  NoteStep();
 }
 
-// Before anything changes: where memory runs out later, the steps are no longer those of the
-// filter.
-void EpochFilter::MakeRoomForAStep() {
-  if (!remembers_ || steps_.size() < steps_.capacity()) return;
-  steps_.reserve(2 * steps_.capacity() + 16);
+// Room for it was made before anything changed: where memory runs out later, the steps are no
+// longer those of the filter.
+void EpochFilter::NoteStep() {
+  if (!remembers_) return;
+  steps_.list.Push(filter_.step());
+  steps_taken_ = steps_.list.end();
 }
 
 std::optional<PositionStatement> EpochFilter::Place() const {
@@ -235,7 +235,7 @@ void EpochFilter::Hear(const PointEstimate& point, double share, bool ranged) {
   said.pull_pm =
       share * information * (enu_from_ecef * (point.position_in_ecef - before.around_in_ecef));
   filter_.Hear(said);
-  if (remembers_) steps_.back() = filter_.step();
+  if (remembers_) steps_.list[steps_taken_ - 1] = filter_.step();
   const Eigen::Matrix3d gain = filter_.PositionCovarianceEnu() * said.information_pm2;
   ranged_share_ -= gain * ranged_share_;
   if (ranged) ranged_share_ += gain;
@@ -253,10 +253,26 @@ Eigen::Matrix3d EpochFilter::PositionCovarianceEnu() const {
   return FilteredCovarianceEnu() + ranged_share_ * lasting_m2_ * ranged_share_.transpose();
 }
 
+void EpochFilter::GoBackTo(const EpochFilter& copy) {
+  *this = copy;
+  if (!remembers_) return;
+  steps_.list.CutFrom(steps_taken_);
+  if (!filter_.started()) return;
+  if (steps_.list.Has(steps_taken_ - 1)) {
+    steps_.list[steps_taken_ - 1] = filter_.step();  // it may have heard more since it was copied
+  } else {
+    NoteStep();  // it was given up meanwhile
+  }
+}
+
 void EpochFilter::Forget() {
-  std::vector<MotionStep> steps = std::move(steps_);
   *this = EpochFilter(remembers_, sensors_);
-  steps_ = std::move(steps);
+  steps_taken_ = steps_.list.end();
+}
+
+void EpochFilter::ForgetSteps() {
+  steps_.list.Clear();
+  steps_taken_ = 0;
 }
 
 }  // namespace lodemark

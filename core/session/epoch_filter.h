@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -14,6 +15,7 @@
 #include "core/session/carried_motion.h"
 #include "core/session/error_persistence.h"
 #include "core/session/gnss_epoch.h"
+#include "core/session/numbered_list.h"
 #include "core/session/phase_changes.h"
 #include "core/session/satellite_trust.h"
 
@@ -39,7 +41,7 @@ class EpochFilter {
   Eigen::Matrix3d VelocityCovarianceEnu() const { return filter_.VelocityCovarianceEnu(); }
   // Of the position as the filter has it.
   Eigen::Matrix3d FilteredCovarianceEnu() const;
-  std::span<const MotionStep> steps() const { return steps_; }
+  const NumberedList<MotionStep>& steps() const { return steps_.list; }
   // How far the position rests on ranges: it moves by this times what moves them all.
   const Eigen::Matrix3d& ranged_share() const { return ranged_share_; }
 
@@ -65,23 +67,34 @@ class EpochFilter {
   // From one that heard Place(), if there was one, and a photograph taken near by; of a moment.
   void HearPhoto(std::int64_t time_ns, std::int64_t taken_ns, const PointEstimate& point);
 
+  // A copy has no steps, and assigning one leaves them; this cuts those off that were taken since.
+  void GoBackTo(const EpochFilter& copy);
+
   // All but the steps.
   void Forget();
-  void ForgetSteps() { steps_.clear(); }
+  void ForgetSteps();
 
  private:
+  struct Steps {
+    Steps() = default;
+    Steps(const Steps&) {}
+    Steps& operator=(const Steps&) { return *this; }
+    NumberedList<MotionStep> list;
+  };
+
   void Doubt(double likelier);
   void BeginAnew();
   void Move(std::int64_t time_ns);
   void Start(const Eigen::Vector3d& position_in_ecef, const Eigen::Matrix3d& covariance_enu_m2);
-  void MakeRoomForAStep();
+  void NoteStep();
   // Hears what an adjustment made of the present state, as strong as a share of it.
   void Hear(const PointEstimate& point, double share, bool ranged);
 
   bool remembers_;
   const SensorBuffer* sensors_;
   CarriedMotion filter_;
-  std::vector<MotionStep> steps_;
+  Steps steps_;
+  std::size_t steps_taken_ = 0;  // the number after the last one
   PhaseChanges phases_;
   ErrorPersistence persistence_;
   SatelliteTrust trust_;

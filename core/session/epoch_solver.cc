@@ -380,6 +380,35 @@ void EpochSolver::Learn() {
   }
 }
 
+EpochMemory::EpochMemory(const SessionOptions& options)
+    : model(options),
+      weights(options),
+      filter(options.estimator == Estimator::kSmoother, nullptr) {}
+
+void EpochSolver::Save(EpochMemory* memory) const {
+  memory->model = model_;
+  memory->weights = weights_;
+  memory->code_rate = code_rate_;
+  memory->biases = biases_;
+  memory->height = height_;
+  memory->filter = filter_;
+  memory->modelled = modelled_;
+  memory->last_place_in_ecef = last_place_in_ecef_;
+  memory->last_gps_ns = last_gps_ns_;
+}
+
+void EpochSolver::GoBackTo(const EpochMemory& memory) {
+  model_ = memory.model;
+  weights_ = memory.weights;
+  code_rate_ = memory.code_rate;
+  biases_ = memory.biases;
+  height_ = memory.height;
+  filter_.GoBackTo(memory.filter);
+  modelled_ = memory.modelled;
+  last_place_in_ecef_ = memory.last_place_in_ecef;
+  last_gps_ns_ = memory.last_gps_ns;
+}
+
 void EpochSolver::ForgetTime() {
   filter_.Forget();
   code_rate_.Forget();

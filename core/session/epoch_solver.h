@@ -33,6 +33,21 @@ struct PhotoPart {
   bool empty() const { return witness == nullptr && ranges.empty(); }
 };
 
+// What epochs and photographs leave behind for those to come, but for the steps of the filter.
+struct EpochMemory {
+  explicit EpochMemory(const SessionOptions& options);
+
+  GnssEpochModel model;
+  RangeWeights weights;
+  CodeRateCheck code_rate;
+  ClockBiases biases;
+  HeightMemory height;
+  EpochFilter filter;
+  bool modelled = false;
+  std::optional<Eigen::Vector3d> last_place_in_ecef;
+  std::int64_t last_gps_ns = 0;
+};
+
 // Epochs come in the order of their time. Allocates only while they grow.
 class EpochSolver {
  public:
@@ -59,6 +74,11 @@ class EpochSolver {
 
   // Of landmarks that came as ranges, by the last solution.
   std::span<const ObservationVerdict> visual_verdicts() const;
+
+  // Allocates only while what is remembered grows.
+  void Save(EpochMemory* memory) const;
+  // As if nothing had come since it was saved.
+  void GoBackTo(const EpochMemory& memory);
 
   // The receiver clock starts anew; biases between the groups stay.
   void ForgetRanges() { code_rate_.Forget(); }

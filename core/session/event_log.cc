@@ -26,6 +26,13 @@ const char* WhatJumped(MillisecondJump::Kind kind) {
   return "phase";
 }
 
+// Seconds to the millisecond.
+std::string Milliseconds(double seconds) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3f", seconds);
+  return text;
+}
+
 const char* WordOf(EstimateStatus status) {
   switch (status) {
     case EstimateStatus::kTooFewSatellites:
@@ -82,10 +89,8 @@ void EventLog::NoteJump(const MillisecondJump& jump) {
 
 void EventLog::NoteTimeBackwards(std::int64_t older_by_ns, bool restart) {
   const double older_by_s = 1e-9 * static_cast<double>(older_by_ns);
-  char seconds[40];
-  std::snprintf(seconds, sizeof seconds, "%.3f", older_by_s);
   Add(EventKind::kTimeBackwards, older_by_s,
-      std::string("an epoch ") + seconds + " s older than the last one; " +
+      "an epoch " + Milliseconds(older_by_s) + " s older than the last one; " +
           (restart ? "as others before it, so time goes on from there" : "dropped"));
 }
 
@@ -142,6 +147,11 @@ void EventLog::NotePhotoFailed(const std::string& reason) {
   if (reason == last_failure_) return;
   last_failure_ = reason;
   Add(EventKind::kPhotoFailed, 0.0, "a photograph could not be looked up: " + reason);
+}
+
+void EventLog::NotePhotoTooLate(double late_s) {
+  Add(EventKind::kPhotoTooLate, late_s,
+      "a photograph " + Milliseconds(late_s) + " s older than what was heard last; dropped");
 }
 
 void EventLog::NoteSensorDropped(const SensorSample& sample) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace lodemark {
 
@@ -20,6 +21,12 @@ bool FrameQueue::Push(const CameraFrame& frame) {
   slot.frame->image = {slot.pixels.data(), frame.image.width_px, frame.image.height_px,
                        static_cast<std::ptrdiff_t>(width)};
   ++count_;
+  for (std::size_t i = count_ - 1; i > 0; --i) {
+    Slot& before = slots_[(first_ + i - 1) % slots_.size()];
+    Slot& after = slots_[(first_ + i) % slots_.size()];
+    if (before.frame->time_ns <= after.frame->time_ns) break;
+    std::swap(before, after);
+  }
   return true;
 }
 

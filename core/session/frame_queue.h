@@ -1,4 +1,4 @@
-// Photographs that wait for their turn, copied.
+// Photographs that wait for their turn, copied, in the order of their times.
 #pragma once
 
 #include <cstdint>

@@ -83,23 +83,25 @@ Status PhotoFusion::Push(const CameraFrame& frame) {
 }
 
 std::optional<PlacePrior> PhotoFusion::PlaceAt(std::int64_t time_ns) const {
-  if (!last_fix_ || std::abs(time_ns - last_fix_->time_ns) > kPriorLasts_ns) return std::nullopt;
+  if (!past_.last_fix || std::abs(time_ns - past_.last_fix->time_ns) > kPriorLasts_ns)
+    return std::nullopt;
   PlacePrior prior;
-  prior.position_in_ecef = last_fix_->position_in_ecef;
-  prior.covariance_enu_m2 = last_fix_->covariance_enu_m2;
-  const double gone_m =
-      1.0 + kPriorSpeed_mps * 1e-9 * static_cast<double>(std::abs(time_ns - last_fix_->time_ns));
+  prior.position_in_ecef = past_.last_fix->position_in_ecef;
+  prior.covariance_enu_m2 = past_.last_fix->covariance_enu_m2;
+  const double gone_m = 1.0 + kPriorSpeed_mps * 1e-9 *
+                                  static_cast<double>(std::abs(time_ns - past_.last_fix->time_ns));
   prior.covariance_enu_m2.diagonal().array() += gone_m * gone_m;
   return prior;
 }
 
 // The walls around a place need it better known than a look-up does: as long as a velocity holds.
 std::optional<PlacePrior> PhotoFusion::PredictedPlaceAt(std::int64_t time_ns) const {
-  if (!last_fix_ || std::abs(time_ns - last_fix_->time_ns) > kSightsLast_ns) return std::nullopt;
-  const Displacement moved = motion_.Between(last_fix_->time_ns, time_ns);
+  if (!past_.last_fix || std::abs(time_ns - past_.last_fix->time_ns) > kSightsLast_ns)
+    return std::nullopt;
+  const Displacement moved = past_.motion.Between(past_.last_fix->time_ns, time_ns);
   PlacePrior prior;
-  prior.position_in_ecef = last_fix_->position_in_ecef + moved.in_ecef_m;
-  prior.covariance_enu_m2 = last_fix_->covariance_enu_m2 + moved.covariance_enu_m2;
+  prior.position_in_ecef = past_.last_fix->position_in_ecef + moved.in_ecef_m;
+  prior.covariance_enu_m2 = past_.last_fix->covariance_enu_m2 + moved.covariance_enu_m2;
   return prior;
 }
 
@@ -113,12 +115,7 @@ void PhotoFusion::Look(EpochSolver* solver, SessionEstimate* estimate,
                        std::vector<LandmarkStatus>* landmarks, EventLog* events) {
   const CameraFrame& frame = queue_.front();
   const std::int64_t time_ns = frame.time_ns;
-  estimate->time_ns = time_ns;
-  if (time_base_ == TimeBase::kGps) {
-    estimate->time_gps_ns = time_ns;
-  } else if (epoch_gps_ns_ != 0) {
-    estimate->time_gps_ns = epoch_gps_ns_ + (time_ns - epoch_ns_);
-  }
+  SetTime(time_ns, estimate);
   events->SetTime(time_ns, estimate->time_gps_ns);
   estimate->status = EstimateStatus::kTooFewSatellites;
   sighting_.reset();
@@ -139,6 +136,15 @@ void PhotoFusion::Look(EpochSolver* solver, SessionEstimate* estimate,
   }
 }
 
+void PhotoFusion::SetTime(std::int64_t time_ns, SessionEstimate* estimate) const {
+  estimate->time_ns = time_ns;
+  if (time_base_ == TimeBase::kGps) {
+    estimate->time_gps_ns = time_ns;
+  } else if (past_.epoch_gps_ns != 0) {
+    estimate->time_gps_ns = past_.epoch_gps_ns + (time_ns - past_.epoch_ns);
+  }
+}
+
 void PhotoFusion::Take(PhotoSighting sighting, EpochSolver* solver, SessionEstimate* estimate,
                        std::vector<LandmarkStatus>* landmarks) {
   estimate->time_ns = sighting.time_ns;
@@ -147,13 +153,22 @@ void PhotoFusion::Take(PhotoSighting sighting, EpochSolver* solver, SessionEstim
   EstimateAtSighting(solver, estimate, landmarks);
 }
 
+void PhotoFusion::TakeAgain(std::int64_t time_ns, const std::optional<PhotoSighting>& sighting,
+                            EpochSolver* solver, SessionEstimate* estimate,
+                            std::vector<LandmarkStatus>* landmarks) {
+  SetTime(time_ns, estimate);
+  estimate->status = EstimateStatus::kTooFewSatellites;
+  sighting_ = sighting;
+  EstimateAtSighting(solver, estimate, landmarks);
+}
+
 // Estimated at the moment of the epoch, then carried to that of the photograph.
 void PhotoFusion::EstimateAtSighting(EpochSolver* solver, SessionEstimate* estimate,
                                      std::vector<LandmarkStatus>* landmarks) {
   const std::int64_t time_ns = estimate->time_ns;
-  const bool with_epoch =
-      has_epoch_ && std::abs(time_ns - epoch_ns_) <= kReach_ns && scheme_ != Scheme::kVision;
-  std::int64_t at_ns = with_epoch ? epoch_ns_ : time_ns;
+  const bool with_epoch = past_.has_epoch && std::abs(time_ns - past_.epoch_ns) <= kReach_ns &&
+                          scheme_ != Scheme::kVision;
+  std::int64_t at_ns = with_epoch ? past_.epoch_ns : time_ns;
   if (estimator_ != Estimator::kEpoch) at_ns = solver->MomentFor(at_ns, kReach_ns);
   const PhotoPart& part = PartAt(at_ns);
   estimate->time_ns = at_ns;
@@ -162,7 +177,7 @@ void PhotoFusion::EstimateAtSighting(EpochSolver* solver, SessionEstimate* estim
   Judge(*solver, estimate, landmarks);
   if (estimate->status != EstimateStatus::kFix) return;
   if (at_ns != time_ns) {
-    const Displacement moved = motion_.Between(at_ns, time_ns);
+    const Displacement moved = past_.motion.Between(at_ns, time_ns);
     estimate->position_in_ecef += moved.in_ecef_m;
     estimate->position = GeodeticFromEcef(estimate->position_in_ecef);
     estimate->covariance_enu_m2 += moved.covariance_enu_m2;
@@ -175,11 +190,11 @@ void PhotoFusion::EstimateAtSighting(EpochSolver* solver, SessionEstimate* estim
           kProtectionSigmas * std::sqrt(moved.covariance_enu_m2(2, 2));
     }
   }
-  last_fix_ = *estimate;
+  past_.last_fix = *estimate;
   // The place by itself, not the estimate's, which has been carried from one moment to the other.
   if (estimate->photo == PhotoOutcome::kUsed && sighting_->HasPose()) {
-    motion_.LearnPlace(time_ns, sighting_->frame.ToEcef(sighting_->pose.centre_in_enu_m()),
-                       sighting_->pose.covariance.topLeftCorner<3, 3>());
+    past_.motion.LearnPlace(time_ns, sighting_->frame.ToEcef(sighting_->pose.centre_in_enu_m()),
+                            sighting_->pose.covariance.topLeftCorner<3, 3>());
   }
 }
 
@@ -194,7 +209,7 @@ const PhotoPart& PhotoFusion::PartAt(std::int64_t time_ns) {
   part_ = PhotoPart();
   sighting_near_ = sighting_ && std::abs(sighting_->time_ns - time_ns) <= kReach_ns;
   if (!sighting_near_) return part_;
-  const Displacement moved = motion_.Between(time_ns, sighting_->time_ns);
+  const Displacement moved = past_.motion.Between(time_ns, sighting_->time_ns);
   if (!witness_.Prepare(*sighting_, moved, scheme_)) return part_;
   part_.witness = witness_.witness();
   part_.ranges = witness_.ranges();
@@ -216,21 +231,18 @@ void PhotoFusion::Judge(const EpochSolver& solver, SessionEstimate* estimate,
 }
 
 void PhotoFusion::NoteEpoch(std::int64_t time_gps_ns, const SessionEstimate& estimate) {
-  has_epoch_ = true;
-  epoch_ns_ = estimate.time_ns;
-  epoch_gps_ns_ = time_gps_ns;
-  motion_.Learn(estimate);
-  if (estimate.status == EstimateStatus::kFix) last_fix_ = estimate;
+  past_.has_epoch = true;
+  past_.epoch_ns = estimate.time_ns;
+  past_.epoch_gps_ns = time_gps_ns;
+  past_.motion.Learn(estimate);
+  if (estimate.status == EstimateStatus::kFix) past_.last_fix = estimate;
 }
 
 void PhotoFusion::Forget() {
   queue_.Clear();
   sighting_.reset();
   sighting_near_ = false;
-  motion_.Forget();
-  has_epoch_ = false;
-  epoch_gps_ns_ = 0;
-  last_fix_.reset();
+  past_ = Memory();
 }
 
 }  // namespace lodemark

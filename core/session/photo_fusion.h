@@ -22,8 +22,20 @@ class PhotoFusion {
  public:
   explicit PhotoFusion(const SessionOptions& options);
 
+  // What epochs and photographs leave behind for those to come.
+  struct Memory {
+    Motion motion;
+    bool has_epoch = false;
+    std::int64_t epoch_ns = 0;
+    std::int64_t epoch_gps_ns = 0;
+    std::optional<SessionEstimate> last_fix;
+  };
+  const Memory& memory() const { return past_; }
+  void GoBackTo(const Memory& memory) { past_ = memory; }
+
   // Fails, and uses none, if the map's buildings are damaged.
   Status UseMap(const FeatureMap* map);
+  bool has_map() const { return map_ != nullptr; }
   Status Push(const CameraFrame& frame);
   std::size_t queued() const { return queue_.count(); }
   std::int64_t next_time_ns() const { return queue_.front().time_ns; }  // where one is queued
@@ -39,10 +51,20 @@ class PhotoFusion {
   // is near in time.
   void Look(EpochSolver* solver, SessionEstimate* estimate, std::vector<LandmarkStatus>* landmarks,
             EventLog* events);
+  // What it was found to show; nothing if it could not be looked up.
+  const std::optional<PhotoSighting>& sighting() const { return sighting_; }
+  // The time of a photograph, and its GPS time if that is known.
+  void SetTime(std::int64_t time_ns, SessionEstimate* estimate) const;
+  // The next photograph is not looked at.
+  void Drop() { queue_.Pop(); }
 
   // The same for one whose landmarks were found otherwise.
   void Take(PhotoSighting sighting, EpochSolver* solver, SessionEstimate* estimate,
             std::vector<LandmarkStatus>* landmarks);
+  // The same for one of a time that was looked at before.
+  void TakeAgain(std::int64_t time_ns, const std::optional<PhotoSighting>& sighting,
+                 EpochSolver* solver, SessionEstimate* estimate,
+                 std::vector<LandmarkStatus>* landmarks);
 
   // What the latest photograph gives an epoch of the time; nothing where none is near.
   const PhotoPart& PartAt(std::int64_t time_ns);
@@ -74,11 +96,7 @@ class PhotoFusion {
   bool sighting_near_ = false;             // of the moment of the last part
   SightingWitness witness_;
   PhotoPart part_;
-  Motion motion_;
-  bool has_epoch_ = false;
-  std::int64_t epoch_ns_ = 0;
-  std::int64_t epoch_gps_ns_ = 0;
-  std::optional<SessionEstimate> last_fix_;
+  Memory past_;
 };
 
 }  // namespace lodemark

@@ -14,6 +14,7 @@
 #include "core/session/epoch_solver.h"
 #include "core/session/event_log.h"
 #include "core/session/glonass_slots.h"
+#include "core/session/moment_hearing.h"
 #include "core/session/photo_fusion.h"
 #include "core/session/raw_verdicts.h"
 #include "core/session/smoothed_way.h"
@@ -42,7 +43,10 @@ bool NamesChannels(const AndroidEpoch& epoch) {
 
 struct Session::Impl {
   explicit Impl(const SessionOptions& session_options)
-      : options(session_options), solver(session_options, &sensors), photos(session_options) {}
+      : options(session_options),
+        solver(session_options, &sensors),
+        photos(session_options),
+        hearing(session_options, &sensors, &solver, &photos, &way, &events) {}
 
   struct QueuedEpoch {
     std::int64_t time_ns = 0;
@@ -83,21 +87,20 @@ struct Session::Impl {
   EpochOrder order;
   MillisecondJumpRepair jumps;
   bool discontinuity = false;  // of an epoch that was dropped
-  SessionEstimate estimate;
-  std::vector<SatelliteStatus> statuses;
+  HeardMoment heard;           // the latest
   PhotoFusion photos;
-  std::vector<LandmarkStatus> landmarks;
   SensorBuffer sensors;
   EventLog events;
   SmoothedWay way;
+  MomentHearing hearing;
 };
 
 Session::Session(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Session::~Session() = default;
 
 Result<std::unique_ptr<Session>> Session::Open(const SessionOptions& options) {
-  if (options.queue_capacity < 1 || options.queue_capacity > 100'000) {
-    return Error{ErrorCode::kInvalidArgument, "session options: queue_capacity must be 1..100000"};
+  if (options.queue_capacity < 1 || options.queue_capacity > 4096) {
+    return Error{ErrorCode::kInvalidArgument, "options.queue_capacity is not within 1..4096"};
   }
   auto impl = std::make_unique<Impl>(options);
   impl->ring.resize(static_cast<std::size_t>(options.queue_capacity));
@@ -197,7 +200,10 @@ Status Session::PushNavigationMessage(std::int32_t type, std::int32_t svid, std:
   return {};
 }
 
-Status Session::UseMap(const FeatureMap* map) { return impl_->photos.UseMap(map); }
+Status Session::UseMap(const FeatureMap* map) {
+  impl_->hearing.Forget();
+  return impl_->photos.UseMap(map);
+}
 
 Status Session::PushFrame(const CameraFrame& frame) { return impl_->photos.Push(frame); }
 
@@ -217,20 +223,17 @@ bool Session::ProcessNext() {
   // Of the same time the photograph first, so that the epoch has it.
   const bool frame_first =
       has_frame && (s.count == 0 || s.photos.next_time_ns() <= s.ring[s.first].time_ns);
-  s.estimate = SessionEstimate();
-  s.statuses.clear();
-  s.landmarks.clear();
+  s.heard.estimate = SessionEstimate();
+  s.heard.satellites.clear();
+  s.heard.landmarks.clear();
   if (frame_first) {
     s.ProcessFrame();
   } else {
     s.ProcessEpoch();
   }
+  s.hearing.Finish(&s.heard);
   const EpochFilter& filter = s.solver.filter();
-  if (filter.inertial() && s.estimate.status == EstimateStatus::kFix) {
-    s.estimate.sources |= kSourceInertial;
-  }
   s.events.NoteFilter(filter.restarts(), filter.inertial());
-  if (s.options.estimator == Estimator::kSmoother) s.way.Note(s.estimate, s.solver.filter());
   return true;
 }
 
@@ -239,17 +242,16 @@ void Session::Impl::ProcessEpoch() {
   first = (first + 1) % ring.size();
   --count;
   if (count == 0) first = 0;  // the same few slots again and again
-  estimate.time_ns = queued->time_ns;
-  estimate.time_gps_ns = queued->epoch.time_gps_ns;
+  heard.estimate.time_ns = queued->time_ns;
+  heard.estimate.time_gps_ns = queued->epoch.time_gps_ns;
   events.SetTime(queued->time_ns, queued->epoch.time_gps_ns);
   if (Admit(queued)) Process(queued);
 }
 
 void Session::Impl::ProcessFrame() {
-  photos.Level(sensors);
-  photos.Look(&solver, &estimate, &landmarks, &events);
-  events.NotePhoto(estimate);
-  events.NoteOutcome(estimate);
+  if (!hearing.HearPhoto(&heard)) return;
+  events.NotePhoto(heard.estimate);
+  events.NoteOutcome(heard.estimate);
 }
 
 bool Session::Impl::Admit(QueuedEpoch* queued) {
@@ -264,6 +266,7 @@ bool Session::Impl::Admit(QueuedEpoch* queued) {
   if (place == EpochPlace::kRestart) {
     jumps.Reset();
     solver.ForgetTime();
+    hearing.Forget();
   }
   epoch.clock_discontinuity = epoch.clock_discontinuity || discontinuity;
   const bool dropped = place == EpochPlace::kDuplicate || place == EpochPlace::kBackwards;
@@ -274,25 +277,14 @@ bool Session::Impl::Admit(QueuedEpoch* queued) {
 void Session::Impl::Process(QueuedEpoch* queued) {
   ObservationEpoch& epoch = queued->epoch;
   if (const std::optional<MillisecondJump> jump = jumps.Repair(&epoch)) events.NoteJump(*jump);
-  if (epoch.clock_discontinuity) {
-    events.NoteDiscontinuity();
-    solver.ForgetRanges();
-  }
-  solver.UseSights(photos.SightsAt(queued->time_ns, epoch.time_gps_ns, &events));
-  const PhotoPart& photo = photos.PartForEpoch(queued->time_ns);
-  solver.Solve(epoch, photo, &estimate, &statuses);
-  photos.Judge(solver, &estimate, &landmarks);
-  photos.NoteEpoch(epoch.time_gps_ns, estimate);
+  if (epoch.clock_discontinuity) events.NoteDiscontinuity();
+  hearing.HearEpoch(queued->time_ns, epoch, &heard);
+  SessionEstimate& estimate = heard.estimate;
   events.NotePhoto(estimate);
-  if (estimate.status == EstimateStatus::kFix) {
-    // The repair moved tag and ranges alike; the clock is told against the tag as received.
-    const std::int64_t moved_ns = estimate.time_gps_ns - epoch.time_gps_ns;
-    estimate.clock_bias_m += kSpeedOfLight_mps * 1e-9 * static_cast<double>(moved_ns);
-    NameGlonassSlots();
-  }
-  MergeRangeless(queued->rangeless, options.systems, &statuses);
+  if (estimate.status == EstimateStatus::kFix) NameGlonassSlots();
+  MergeRangeless(queued->rangeless, options.systems, &heard.satellites);
   DistinctSatellites seen;
-  for (const SatelliteStatus& status : statuses) {
+  for (const SatelliteStatus& status : heard.satellites) {
     seen.Add(status.satellite);
     if (status.verdict == SatelliteVerdict::kNoEphemeris ||
         status.verdict == SatelliteVerdict::kEphemerisTooOld) {
@@ -305,6 +297,7 @@ void Session::Impl::Process(QueuedEpoch* queued) {
 
 void Session::Impl::NameGlonassSlots() {
   if (!names_channels) return;
+  const SessionEstimate& estimate = heard.estimate;
   const std::int64_t since_ns = estimate.time_gps_ns - slots_named_gps_ns;
   if (slots_named_gps_ns != 0 && since_ns >= 0 && since_ns < kNameSlotsEvery_ns) return;
   slots_named_gps_ns = estimate.time_gps_ns;
@@ -315,9 +308,9 @@ void Session::Impl::NameGlonassSlots() {
 std::int32_t Session::queued() const {
   return static_cast<std::int32_t>(impl_->count + impl_->photos.queued());
 }
-const SessionEstimate& Session::estimate() const { return impl_->estimate; }
-std::span<const SatelliteStatus> Session::satellites() const { return impl_->statuses; }
-std::span<const LandmarkStatus> Session::landmarks() const { return impl_->landmarks; }
+const SessionEstimate& Session::estimate() const { return impl_->heard.estimate; }
+std::span<const SatelliteStatus> Session::satellites() const { return impl_->heard.satellites; }
+std::span<const LandmarkStatus> Session::landmarks() const { return impl_->heard.landmarks; }
 std::span<const SessionEvent> Session::events() const { return impl_->events.events(); }
 std::vector<SessionEstimate> Session::Smoothed() const {
   return impl_->way.Estimates(impl_->solver.filter());
@@ -335,13 +328,12 @@ void Session::Reset() {
   s.order.Forget();
   s.jumps.Reset();
   s.discontinuity = false;
-  s.estimate = SessionEstimate();
-  s.statuses.clear();
+  s.heard = HeardMoment();
   s.photos.Forget();
-  s.landmarks.clear();
   s.sensors.Forget();
   s.events.Reset();
   s.way.Forget();
+  s.hearing.Forget();
 }
 
 }  // namespace lodemark

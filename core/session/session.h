@@ -221,6 +221,7 @@ enum class EventKind : std::uint8_t {
   kFilterRestarted,    // the filter's place was proven wrong, or fitted nothing for long
   kInertialAligned,    // inertial sensors carry the filter from here
   kInertialLost,       // they do not any more
+  kPhotoTooLate,       // a photograph older than what a filter remembers: dropped
 };
 
 struct SessionEvent {

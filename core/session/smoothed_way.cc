@@ -6,12 +6,15 @@
 
 namespace lodemark {
 
-void SmoothedWay::Note(const SessionEstimate& estimate, const EpochFilter& filter) {
+SmoothedWay::Moment SmoothedWay::MomentOf(const SessionEstimate& estimate,
+                                          const EpochFilter& filter) {
   Moment moment;
   moment.estimate = estimate;
-  moment.carried = filter.started() && !filter.steps().empty();
+  // What was dropped is of another time than the state.
+  moment.carried =
+      filter.started() && !filter.steps().empty() && estimate.status != EstimateStatus::kNoData;
   if (moment.carried) {
-    moment.step = filter.steps().size() - 1;
+    moment.step = filter.steps().end() - 1;
     if (estimate.status == EstimateStatus::kFix) {
       moment.ahead_in_ecef_m = estimate.position_in_ecef - filter.position_in_ecef();
       moment.beside_enu_m2 = estimate.covariance_enu_m2 - filter.FilteredCovarianceEnu();
@@ -19,17 +22,27 @@ void SmoothedWay::Note(const SessionEstimate& estimate, const EpochFilter& filte
       moment.beside_enu_m2 = filter.PositionCovarianceEnu() - filter.FilteredCovarianceEnu();
     }
   }
-  moments_.push_back(moment);
+  return moment;
+}
+
+std::size_t SmoothedWay::Note(const SessionEstimate& estimate, const EpochFilter& filter) {
+  moments_.Push(MomentOf(estimate, filter));
+  return moments_.end() - 1;
+}
+
+void SmoothedWay::NoteAgain(std::size_t number, const SessionEstimate& estimate,
+                            const EpochFilter& filter) {
+  if (moments_.Has(number)) moments_[number] = MomentOf(estimate, filter);
 }
 
 std::vector<SessionEstimate> SmoothedWay::Estimates(const EpochFilter& filter) const {
-  const std::vector<MotionState> states = SmoothMotion(filter.steps());
+  const std::vector<MotionState> states = SmoothMotion(filter.steps().all());
   std::vector<SessionEstimate> estimates;
-  estimates.reserve(moments_.size());
-  for (const Moment& moment : moments_) {
+  estimates.reserve(moments_.all().size());
+  for (const Moment& moment : moments_.all()) {
     SessionEstimate estimate = moment.estimate;
-    if (moment.carried) {
-      const MotionState& state = states[moment.step];
+    if (moment.carried && filter.steps().Has(moment.step)) {
+      const MotionState& state = states[moment.step - filter.steps().first()];
       estimate.position_in_ecef = state.mean.head<3>() + moment.ahead_in_ecef_m;
       estimate.position = GeodeticFromEcef(estimate.position_in_ecef);
       const Eigen::Matrix3d enu_from_ecef = EnuFromEcefRotation(estimate.position);

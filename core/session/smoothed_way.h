@@ -6,19 +6,22 @@
 #include <vector>
 
 #include "core/session/epoch_filter.h"
+#include "core/session/numbered_list.h"
 #include "core/session/session.h"
 
 namespace lodemark {
 
 class SmoothedWay {
  public:
-  // The estimate of a moment as it is given; filter: as it is then.
-  void Note(const SessionEstimate& estimate, const EpochFilter& filter);
+  // The estimate of a moment as it is given; filter: as it is then. Gives its number.
+  std::size_t Note(const SessionEstimate& estimate, const EpochFilter& filter);
+  // What it would be after what came late.
+  void NoteAgain(std::size_t number, const SessionEstimate& estimate, const EpochFilter& filter);
 
   // One for each moment noted, in that order.
   std::vector<SessionEstimate> Estimates(const EpochFilter& filter) const;
 
-  void Forget() { moments_.clear(); }
+  void Forget() { moments_.Clear(); }
 
  private:
   struct Moment {
@@ -29,7 +32,9 @@ class SmoothedWay {
     Eigen::Vector3d ahead_in_ecef_m = Eigen::Vector3d::Zero();
     Eigen::Matrix3d beside_enu_m2 = Eigen::Matrix3d::Zero();
   };
-  std::vector<Moment> moments_;
+  static Moment MomentOf(const SessionEstimate& estimate, const EpochFilter& filter);
+
+  NumberedList<Moment> moments_;
 };
 
 }  // namespace lodemark

@@ -239,7 +239,7 @@ class Sequence {
     Require(count >= 0 && count <= 256);
     for (std::size_t i = 0; i < events.size() && status == LODEMARK_OK; ++i) {
       if (i >= static_cast<std::size_t>(count)) break;
-      Require(events[i].kind >= 0 && events[i].kind <= LODEMARK_EVENT_INERTIAL_LOST);
+      Require(events[i].kind >= 0 && events[i].kind <= LODEMARK_EVENT_PHOTO_TOO_LATE);
       Require(std::memchr(events[i].text, 0, sizeof events[i].text) != nullptr);
       Require(std::isfinite(events[i].value));
     }

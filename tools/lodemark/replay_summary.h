@@ -83,7 +83,7 @@ class ReplaySummary {
   std::vector<float> landmark_factors_;
   std::array<std::int64_t, LODEMARK_OUTCOME_AMBIGUOUS + 1> outcomes_ = {};
   std::array<std::int64_t, LODEMARK_VERDICT_PHOTO_NOT_USED + 1> verdicts_ = {};
-  std::array<std::int64_t, LODEMARK_EVENT_INERTIAL_LOST + 1> events_ = {};
+  std::array<std::int64_t, LODEMARK_EVENT_PHOTO_TOO_LATE + 1> events_ = {};
   std::array<SystemCount, kSystems> systems_;
   std::array<std::int64_t, 8> sources_ = {};  // by their bits
   std::array<std::int64_t, LODEMARK_PHOTO_CONTRADICTED + 1> photos_ = {};

@@ -33,8 +33,8 @@ constexpr const char* kEventWords[] = {
     "clock_discontinuity", "millisecond_jump", "time_backwards",    "duplicate_epoch",
     "first_fix",           "fix_lost",         "ephemeris_missing", "photo_contradicted",
     "photo_failed",        "map_datum",        "sensor_dropped",    "filter_restarted",
-    "inertial_aligned",    "inertial_lost"};
-static_assert(std::size(kEventWords) == LODEMARK_EVENT_INERTIAL_LOST + 1);
+    "inertial_aligned",    "inertial_lost",    "photo_too_late"};
+static_assert(std::size(kEventWords) == LODEMARK_EVENT_PHOTO_TOO_LATE + 1);
 
 template <std::size_t kCount>
 const char* WordOf(const char* const (&words)[kCount], std::int32_t value) {

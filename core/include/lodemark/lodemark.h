@@ -740,6 +740,12 @@ typedef struct lodemark_frame {
  * stride_bytes; it is copied. What it shows is looked up when it is processed, around the last
  * position where there is one. LODEMARK_ERROR_OUT_OF_ORDER before a map is used,
  * LODEMARK_ERROR_QUEUE_FULL if four photographs wait.
+ *
+ * It may come up to 3 s late, after younger epochs and photographs were processed: with
+ * LODEMARK_ESTIMATOR_FILTER and LODEMARK_ESTIMATOR_SMOOTHER it is heard at its time and what came
+ * after it once more, so that later estimates are what they would be had it come in time; one that
+ * comes later still is dropped with an event. Without a filter it is used with the latest epoch
+ * where they are within 1.5 s.
  */
 LODEMARK_API lodemark_status lodemark_session_push_image(lodemark_session* session,
                                                          const lodemark_frame* frame,
@@ -954,6 +960,7 @@ LODEMARK_API lodemark_status lodemark_session_landmarks(const lodemark_session* 
 #define LODEMARK_EVENT_FILTER_RESTARTED 11  /* the filter's place was proven wrong: begun anew */
 #define LODEMARK_EVENT_INERTIAL_ALIGNED 12  /* inertial sensors carry the filter from here */
 #define LODEMARK_EVENT_INERTIAL_LOST 13     /* they do not any more */
+#define LODEMARK_EVENT_PHOTO_TOO_LATE 14    /* dropped; value: by so many seconds it came late */
 
 /* Something that happened in between. */
 typedef struct lodemark_event {

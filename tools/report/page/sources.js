@@ -6,7 +6,7 @@ const noSource = 'none';
 // did or came too late, a dot for the rest.
 const eventKinds = {
   first_fix: 'begins', inertial_aligned: 'begins',
-  fix_lost: 'ends', filter_restarted: 'ends', inertial_lost: 'ends', photo_contradicted: 'ends', photo_failed: 'ends',
+  fix_lost: 'ends', filter_restarted: 'ends', inertial_lost: 'ends', photo_contradicted: 'ends', photo_failed: 'ends', photo_too_late: 'ends',
   clock_discontinuity: 'clock', millisecond_jump: 'clock', time_backwards: 'clock', duplicate_epoch: 'clock', sensor_dropped: 'clock',
 };
 const eventStyles = {

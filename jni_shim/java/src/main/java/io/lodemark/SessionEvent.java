@@ -93,6 +93,8 @@ public final class SessionEvent {
     INERTIAL_ALIGNED,
     /** Inertial sensors do not carry the filter any more. */
     INERTIAL_LOST,
+    /** A photograph came later than a filter remembers; it was dropped. */
+    PHOTO_TOO_LATE,
     /** One of a newer library. */
     UNKNOWN
   }
