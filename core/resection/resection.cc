@@ -17,8 +17,12 @@
 namespace lodemark {
 namespace {
 
-// Decimal logarithm of how often chance may do as well as a pose that is believed.
+// Decimal logarithm of how often chance may do as well as a pose that is believed. Where most
+// sights disagree with it, those that agree may be mistaken alike, as on a facade that repeats
+// itself: a photograph of another place reached -3.5 with one sight in nine.
 constexpr double kMostLog10Chance = -3.0;
+constexpr double kMostLog10ChanceOfFew = -4.0;
+constexpr double kFew = 0.25;  // of the sights
 
 // Spread of the landmarks across their longest axis, relative to that, below which they are on one
 // line.
@@ -167,7 +171,8 @@ class Resection {
   }
 
   bool IsBelievable(const Mode& mode) const {
-    return mode.log10_chance < kMostLog10Chance &&
+    const bool are_few = mode.adjusted.inliers < kFew * static_cast<double>(input_.sights.size());
+    return mode.log10_chance < (are_few ? kMostLog10ChanceOfFew : kMostLog10Chance) &&
            mode.adjusted.inliers >= static_cast<int>(FewestSights(input_.priors));
   }
 
