@@ -3,16 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <exception>
 #include <new>
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "core/base/units.h"
 #include "core/vision/feature_budget.h"
+#include "core/vision/sift.h"
+#include "core/vision/sift_description.h"
 #include "core/vision/working_size.h"
 
 namespace lodemark {
@@ -23,11 +26,6 @@ constexpr double kMostPixels = 200.0e6;
 
 // Below this there is no octave to look for features in, and OpenCV does not expect it.
 constexpr int kShortestSide_px = 16;
-
-// SIFT doubles the image first with pixel centres kept in place, so that x becomes 2 x + 1/2, but
-// OpenCV halves the found positions as though x had become 2 x: all are a quarter pixel too far
-// right and down. https://github.com/opencv/opencv/issues/23123; still so by default in 4.12.
-constexpr double kSiftShift_px = 0.25;
 
 constexpr float kOrbScale = 1.2F;
 constexpr int kOrbLevels = 8;
@@ -75,84 +73,81 @@ WorkingImage ScaleDown(const GrayImage& image, const DetectorOptions& options) {
   return working;
 }
 
+// In pixels of the image that was looked at; descriptors as Features has them.
 struct Detected {
-  std::vector<cv::KeyPoint> keypoints;
-  cv::Mat descriptors;  // one row each
+  std::vector<Keypoint> keypoints;
+  std::vector<std::uint8_t> descriptors;
 };
 
-Detected DetectSift(const cv::Mat& image) {
-  Detected detected;
-  cv::SIFT::create()->detectAndCompute(image, cv::noArray(), detected.keypoints,
-                                       detected.descriptors);
-  for (cv::KeyPoint& keypoint : detected.keypoints) {
-    keypoint.pt.x = static_cast<float>(keypoint.pt.x - kSiftShift_px);
-    keypoint.pt.y = static_cast<float>(keypoint.pt.y - kSiftShift_px);
-  }
-  return detected;
-}
-
-Detected DetectOrb(const cv::Mat& image, int most) {
-  Detected detected;
+Detected DetectOrbFeatures(const cv::Mat& image, int most) {
+  std::vector<cv::KeyPoint> found;
+  cv::Mat rows;
   cv::ORB::create(most, kOrbScale, kOrbLevels, kOrbPatch_px)
-      ->detectAndCompute(image, cv::noArray(), detected.keypoints, detected.descriptors);
-  for (cv::KeyPoint& keypoint : detected.keypoints) {
+      ->detectAndCompute(image, cv::noArray(), found, rows);
+  Detected detected;
+  detected.keypoints.reserve(found.size());
+  for (const cv::KeyPoint& orb : found) {
     // OpenCV gives level pixel u as u * scale. But levels have whole sizes, and are shrunk with the
     // image's edges kept in place.
-    const float scale = std::pow(kOrbScale, static_cast<float>(keypoint.octave));
+    const float scale = std::pow(kOrbScale, static_cast<float>(orb.octave));
     const auto in_image = [scale](float position, int size_px) {
       const float level_size_px = std::nearbyint(static_cast<float>(size_px) / scale);
       return (position / scale + 0.5F) * static_cast<float>(size_px) / level_size_px - 0.5F;
     };
-    keypoint.pt.x = in_image(keypoint.pt.x, image.cols);
-    keypoint.pt.y = in_image(keypoint.pt.y, image.rows);
+    Keypoint keypoint;
+    keypoint.x_px = in_image(orb.pt.x, image.cols);
+    keypoint.y_px = in_image(orb.pt.y, image.rows);
+    keypoint.size_px = orb.size;
+    keypoint.angle_rad = static_cast<float>(orb.angle * kPi / 180.0);
+    keypoint.response = orb.response;
+    detected.keypoints.push_back(keypoint);
+  }
+  for (int i = 0; i < rows.rows; ++i) {
+    const std::uint8_t* const row = rows.ptr<std::uint8_t>(i);
+    detected.descriptors.insert(detected.descriptors.end(), row, row + rows.cols);
   }
   return detected;
 }
 
 // RootSIFT of Arandjelovic and Zisserman (2012), section 3, in bytes.
-void WriteRootSift(const float* histogram, std::uint8_t* bytes) {
-  constexpr std::size_t kLength = DescriptorBytes(DescriptorKind::kRootSift);
+void ToRootSift(std::span<std::uint8_t> histogram) {
   float sum = 0.0F;
-  for (std::size_t i = 0; i < kLength; ++i) sum += histogram[i];
+  for (const std::uint8_t value : histogram) sum += value;
   const float scale = sum > 0.0F ? 1.0F / sum : 0.0F;
-  for (std::size_t i = 0; i < kLength; ++i) {
-    const float root = std::sqrt(histogram[i] * scale) * 512.0F;
-    bytes[i] = static_cast<std::uint8_t>(std::min(root + 0.5F, 255.0F));
+  for (std::uint8_t& value : histogram) {
+    const float root = std::sqrt(value * scale) * 512.0F;
+    value = static_cast<std::uint8_t>(std::min(root + 0.5F, 255.0F));
   }
 }
 
-Features Gather(const Detected& detected, const WorkingImage& working, const GrayImage& image,
+Detected DetectRootSift(const cv::Mat& image) {
+  SiftFeatures sift =
+      DetectSift({image.data, image.cols, image.rows, static_cast<std::ptrdiff_t>(image.step[0])});
+  for (std::size_t i = 0; i < sift.histograms.size(); i += kSiftLength) {
+    ToRootSift(std::span(sift.histograms).subspan(i, kSiftLength));
+  }
+  return {std::move(sift.keypoints), std::move(sift.histograms)};
+}
+
+Features Gather(Detected detected, const WorkingImage& working, const GrayImage& image,
                 const DetectorOptions& options) {
   const double size_scale = std::sqrt(working.x_scale * working.y_scale);
-  std::vector<Keypoint> all;
-  all.reserve(detected.keypoints.size());
-  for (const cv::KeyPoint& found : detected.keypoints) {
-    Keypoint keypoint;
-    keypoint.x_px = static_cast<float>((found.pt.x + 0.5) * working.x_scale - 0.5);
-    keypoint.y_px = static_cast<float>((found.pt.y + 0.5) * working.y_scale - 0.5);
-    keypoint.size_px = static_cast<float>(found.size * size_scale);
-    keypoint.angle_rad = static_cast<float>(found.angle * kPi / 180.0);
-    keypoint.response = found.response;
-    all.push_back(keypoint);
+  for (Keypoint& keypoint : detected.keypoints) {
+    keypoint.x_px = static_cast<float>((keypoint.x_px + 0.5) * working.x_scale - 0.5);
+    keypoint.y_px = static_cast<float>((keypoint.y_px + 0.5) * working.y_scale - 0.5);
+    keypoint.size_px = static_cast<float>(keypoint.size_px * size_scale);
   }
-
   const std::size_t length = DescriptorBytes(options.kind);
   const std::vector<std::uint32_t> kept =
-      SpreadOverImage(all, image.width_px, image.height_px, options.most_features);
+      SpreadOverImage(detected.keypoints, image.width_px, image.height_px, options.most_features);
   Features features;
   features.kind = options.kind;
   features.keypoints.reserve(kept.size());
-  features.descriptors.resize(kept.size() * length);
-  std::uint8_t* bytes = features.descriptors.data();
+  features.descriptors.reserve(kept.size() * length);
   for (const std::uint32_t i : kept) {
-    features.keypoints.push_back(all[i]);
-    const int row = static_cast<int>(i);
-    if (options.kind == DescriptorKind::kOrb) {
-      std::memcpy(bytes, detected.descriptors.ptr<std::uint8_t>(row), length);
-    } else {
-      WriteRootSift(detected.descriptors.ptr<float>(row), bytes);
-    }
-    bytes += length;
+    features.keypoints.push_back(detected.keypoints[i]);
+    const std::span descriptor = std::span(detected.descriptors).subspan(i * length, length);
+    features.descriptors.insert(features.descriptors.end(), descriptor.begin(), descriptor.end());
   }
   return features;
 }
@@ -171,10 +166,10 @@ Result<Features> DetectFeatures(const GrayImage& image, const DetectorOptions& o
     }
     // Twice the budget, for the spread to choose from.
     const int most_found = std::min(options.most_features, 1'000'000) * 2;
-    const Detected detected = options.kind == DescriptorKind::kOrb
-                                  ? DetectOrb(working.pixels, most_found)
-                                  : DetectSift(working.pixels);
-    return Gather(detected, working, image, options);
+    return Gather(options.kind == DescriptorKind::kOrb
+                      ? DetectOrbFeatures(working.pixels, most_found)
+                      : DetectRootSift(working.pixels),
+                  working, image, options);
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::kOutOfMemory, "image: not enough memory to find its features"};
   } catch (const cv::Exception& exception) {

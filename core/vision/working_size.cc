@@ -6,8 +6,7 @@
 namespace lodemark {
 namespace {
 
-// OpenCV's SIFT doubles the image and keeps eleven pictures of it in single precision, and of each
-// halving: 4 * 11 * 4 * 4 / 3 bytes a pixel.
+// A panorama has rows so long that all of it may be held: 130 bytes a pixel.
 constexpr double kMostSiftPixels = 12.5e6;
 
 }  // namespace

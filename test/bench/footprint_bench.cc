@@ -27,6 +27,9 @@ namespace {
 
 constexpr std::int32_t kOverlap_px = 48;
 
+// What a session with a map and photographs of 1.2 megapixels may take.
+constexpr double kMostMemory_MB = 96.0;
+
 struct Image {
   std::int32_t width_px = 0;
   std::int32_t height_px = 0;
@@ -132,6 +135,7 @@ int FeedSession(const char* map_path, const char* camera, char** photos, int cou
   std::printf("opening map and session: %.2f ms, the first time %.2f ms\n", times_ms[15], first_ms);
   std::printf("memory: %.0f MB at the start, %.0f MB opened, at most %.0f MB (%d of %d answered)\n",
               start_MB, opened_MB, PeakMemory_MB(), answered, count);
+  if (PeakMemory_MB() > kMostMemory_MB) Fail("more than 96 MB");
   return 0;
 }
 
