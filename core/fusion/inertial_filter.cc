@@ -79,7 +79,7 @@ void InertialFilter::Start(const InertialState& state,
 void InertialFilter::Advance(std::span<const InertialSample> samples,
                              std::span<const RangeRateObservation> rates,
                              std::span<const RangeChangeObservation> changes,
-                             MotionVerdicts* verdicts) {
+                             MotionVerdicts* verdicts, const std::optional<Rise>& rise) {
   const InertialIncrement felt = IntegrateInertial(samples, state_.biases, noise_);
   const double t = felt.seconds;
   const Eigen::Matrix3d axes = state_.ecef_from_sensor.toRotationMatrix();
@@ -149,7 +149,14 @@ void InertialFilter::Advance(std::span<const InertialSample> samples,
   StepKnowledge known;
   known.mean << next.position_in_ecef - state_.position_in_ecef, next.velocity_in_ecef_mps;
   known.covariance = step_from_state * before_with_step + noise.topLeftCorner<6, 6>();
-  const StepKnowledge found = AdjustStep(known, rates, changes, verdicts);
+  const StepKnowledge measured = AdjustStep(known, rates, changes, verdicts);
+  StepKnowledge found = measured;
+  verdicts->rise_square.reset();
+  if (rise) {
+    const Eigen::Matrix3d enu_from_ecef =
+        EnuFromEcefRotation(GeodeticFromEcef(state_.position_in_ecef));
+    verdicts->rise_square = HearRise(*rise, enu_from_ecef.row(2), &found);
+  }
   const StepWithState after_with_step = transition * before_with_step + noise.leftCols<6>();
   const StepWithState gain =
       Eigen::LDLT<StepMatrix>(known.covariance).solve(after_with_step.transpose()).transpose();
@@ -160,7 +167,7 @@ void InertialFilter::Advance(std::span<const InertialSample> samples,
   Correct(gain * (found.mean - known.mean));
   clock_drift_mps_ = found.clock_drift_mps;
   if (verdicts->rates_agree || verdicts->changes_agree) {
-    NoteStrain(t, known, found);
+    NoteStrain(t, known, measured);
   } else if (!rates.empty()) {
     NoteContradiction(t, known, rates);
   }

@@ -4,12 +4,14 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
 #include <span>
 
 #include "core/fusion/inertial_increment.h"
 #include "core/fusion/inertial_sample.h"
 #include "core/fusion/observation.h"
 #include "core/fusion/position_statement.h"
+#include "core/fusion/rise.h"
 #include "core/fusion/step_adjustment.h"
 
 namespace lodemark {
@@ -47,10 +49,11 @@ class InertialFilter {
   void Stop() { started_ = false; }
 
   // Carries the state on to the time of the last sample; the first is at the time of the state.
-  // rates: at the new moment; changes: in between. Stops where numbers run out, or where the sensor
-  // tells of another motion than they do.
+  // rates: at the new moment; changes and rise: in between. Stops where numbers run out, or where
+  // the sensor tells of another motion than rates and changes do.
   void Advance(std::span<const InertialSample> samples, std::span<const RangeRateObservation> rates,
-               std::span<const RangeChangeObservation> changes, MotionVerdicts* verdicts);
+               std::span<const RangeChangeObservation> changes, MotionVerdicts* verdicts,
+               const std::optional<Rise>& rise = {});
 
   // What is known of the position, and an independent statement around that place.
   PositionStatement Place() const;

@@ -39,11 +39,12 @@ void MotionFilter::Start(const MotionState& state) {
 
 void MotionFilter::Advance(double seconds, std::span<const RangeRateObservation> rates,
                            std::span<const RangeChangeObservation> changes,
-                           const MotionModel& model, MotionVerdicts* verdicts) {
+                           const MotionModel& model, MotionVerdicts* verdicts,
+                           const std::optional<Rise>& rise) {
   const MotionState& before = step_.filtered;
-  const Eigen::Matrix3d density =
-      Turned(EnuFromEcefRotation(GeodeticFromEcef(before.mean.head<3>())),
-             model.acceleration_density_m2ps3);
+  const Eigen::Matrix3d enu_from_ecef =
+      EnuFromEcefRotation(GeodeticFromEcef(before.mean.head<3>()));
+  const Eigen::Matrix3d density = Turned(enu_from_ecef, model.acceleration_density_m2ps3);
   const double t = seconds;
   MotionMatrix noise;
   noise << density * (t * t * t / 3.0), density * (t * t / 2.0), density * (t * t / 2.0),
@@ -56,7 +57,9 @@ void MotionFilter::Advance(double seconds, std::span<const RangeRateObservation>
   StepKnowledge known;
   known.mean = step_from_state * before.mean;
   known.covariance = step_from_state * before.covariance * step_from_state.transpose() + noise;
-  const StepKnowledge found = AdjustStep(known, rates, changes, verdicts);
+  StepKnowledge found = AdjustStep(known, rates, changes, verdicts);
+  verdicts->rise_square.reset();
+  if (rise) verdicts->rise_square = HearRise(*rise, enu_from_ecef.row(2), &found);
   // What was found out of the step moves the states before and after as far as they hang on it.
   const MotionMatrix before_with_step = before.covariance * step_from_state.transpose();
   const MotionMatrix after_with_step = transition * before_with_step + noise;

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 
 #include "core/fusion/acceleration_memory.h"
 #include "core/fusion/motion_smoother.h"
 #include "core/fusion/observation.h"
 #include "core/fusion/position_statement.h"
+#include "core/fusion/rise.h"
 #include "core/fusion/step_adjustment.h"
 
 namespace lodemark {
@@ -29,10 +31,10 @@ class MotionFilter {
 
   // Carries the state on, for a millisecond at least; stops where numbers run out. rates: at the
   // new moment; changes: since the moment of the state. Both robustly: what contradicts the rest
-  // counts for little.
+  // counts for little, and a rise that contradicts it for nothing.
   void Advance(double seconds, std::span<const RangeRateObservation> rates,
                std::span<const RangeChangeObservation> changes, const MotionModel& model,
-               MotionVerdicts* verdicts);
+               MotionVerdicts* verdicts, const std::optional<Rise>& rise = {});
 
   // What is known of the position.
   PositionStatement Place() const;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct MotionVerdicts {
   // False: too few of them fit one velocity, or one displacement, and none was used.
   bool rates_agree = false;
   bool changes_agree = false;
+  // Of a rise, where there was one, in its expected variance.
+  std::optional<double> rise_square;
 };
 
 // By x, y, z earth-fixed: the displacement since the moment before, in metres, and the velocity

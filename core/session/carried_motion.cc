@@ -1,5 +1,7 @@
 #include "core/session/carried_motion.h"
 
+#include "core/geo/geodetic.h"
+
 namespace lodemark {
 namespace {
 
@@ -50,7 +52,7 @@ void CarriedMotion::Advance(std::int64_t from_ns, std::int64_t to_ns,
     before.mean << state.position_in_ecef, state.velocity_in_ecef_mps;
     before.covariance = inertial_.filter().covariance().topLeftCorner<6, 6>();
     const Eigen::Matrix3d place_m2 = inertial_.filter().PositionCovarianceEnu();
-    const bool reached = inertial_.Advance(from_ns, to_ns, rates, changes, verdicts);
+    const bool reached = inertial_.Advance(from_ns, to_ns, rates, changes, &barometer_, verdicts);
     if (reached && inertial()) return;
     // Back to what moves by itself, from where it was. What was proven wrong has misled it for some
     // seconds, above all in its velocity.
@@ -62,8 +64,13 @@ void CarriedMotion::Advance(std::int64_t from_ns, std::int64_t to_ns,
       motion_.Start(before);
     }
   }
-  motion_.Advance(1e-9 * static_cast<double>(to_ns - from_ns), rates, changes, model, verdicts);
+  const double seconds = 1e-9 * static_cast<double>(to_ns - from_ns);
+  const std::optional<Rise> rise =
+      barometer_.RiseBetween(from_ns, to_ns, GeodeticFromEcef(motion_.position_in_ecef()).height_m,
+                             motion_.velocity_in_ecef_mps().norm());
+  motion_.Advance(seconds, rates, changes, model, verdicts, rise);
   if (!motion_.started()) return;
+  if (rise) barometer_.Learn(seconds, *verdicts->rise_square);
   inertial_.Note(to_ns, motion_, verdicts->rates_agree || verdicts->changes_agree);
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/fusion/motion_filter.h"
+#include "core/session/barometer.h"
 #include "core/session/inertial_carrier.h"
 
 namespace lodemark {
@@ -14,7 +15,7 @@ namespace lodemark {
 class CarriedMotion {
  public:
   // sensors: null for none; it must stay.
-  explicit CarriedMotion(const SensorBuffer* sensors) : inertial_(sensors) {}
+  explicit CarriedMotion(const SensorBuffer* sensors) : inertial_(sensors), barometer_(sensors) {}
 
   bool started() const { return inertial() || motion_.started(); }
   bool inertial() const { return inertial_.carries(); }
@@ -39,6 +40,7 @@ class CarriedMotion {
  private:
   MotionFilter motion_;
   InertialCarrier inertial_;
+  Barometer barometer_;
 };
 
 }  // namespace lodemark

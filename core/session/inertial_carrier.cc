@@ -130,27 +130,32 @@ void InertialCarrier::Note(std::int64_t time_ns, const MotionFilter& motion, boo
 
 bool InertialCarrier::Advance(std::int64_t from_ns, std::int64_t to_ns,
                               std::span<const RangeRateObservation> rates,
-                              std::span<const RangeChangeObservation> changes,
+                              std::span<const RangeChangeObservation> changes, Barometer* barometer,
                               MotionVerdicts* verdicts) {
   // Rest and vehicle hold it all through a silence, of which phases tell nothing.
   if (to_ns - from_ns > kLongestStep_ns) changes = {};
   while (to_ns - from_ns > kLongestStep_ns) {
-    if (!Step(from_ns, from_ns + kStep_ns, {}, {}, verdicts)) return false;
+    if (!Step(from_ns, from_ns + kStep_ns, {}, {}, barometer, verdicts)) return false;
     if (!filter_.started()) return true;
     from_ns += kStep_ns;
   }
-  return Step(from_ns, to_ns, rates, changes, verdicts);
+  return Step(from_ns, to_ns, rates, changes, barometer, verdicts);
 }
 
 bool InertialCarrier::Step(std::int64_t from_ns, std::int64_t to_ns,
                            std::span<const RangeRateObservation> rates,
-                           std::span<const RangeChangeObservation> changes,
+                           std::span<const RangeChangeObservation> changes, Barometer* barometer,
                            MotionVerdicts* verdicts) {
   bool complete = false;
   const bool by_wheels = by_wheels_;
   const std::span<const InertialSample> samples = Felt(from_ns, to_ns, &complete);
   if (!complete || by_wheels != by_wheels_) return false;
-  filter_.Advance(samples, rates, changes, verdicts);
+  const InertialState& before = filter_.state();
+  const std::optional<Rise> rise =
+      barometer->RiseBetween(from_ns, to_ns, GeodeticFromEcef(before.position_in_ecef).height_m,
+                             before.velocity_in_ecef_mps.norm());
+  filter_.Advance(samples, rates, changes, verdicts, rise);
+  if (rise) barometer->Learn(Seconds(from_ns, to_ns), *verdicts->rise_square);
   if (!filter_.started()) return true;
   HearRest(samples, Seconds(from_ns, to_ns));
   HearVehicle(samples, from_ns, to_ns);

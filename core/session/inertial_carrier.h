@@ -10,6 +10,7 @@
 #include "core/fusion/inertial_alignment.h"
 #include "core/fusion/inertial_filter.h"
 #include "core/fusion/motion_filter.h"
+#include "core/session/barometer.h"
 #include "core/session/sensor_buffer.h"
 
 namespace lodemark {
@@ -31,13 +32,15 @@ class InertialCarrier {
   // reach; the state is then that of the first moment.
   bool Advance(std::int64_t from_ns, std::int64_t to_ns,
                std::span<const RangeRateObservation> rates,
-               std::span<const RangeChangeObservation> changes, MotionVerdicts* verdicts);
+               std::span<const RangeChangeObservation> changes, Barometer* barometer,
+               MotionVerdicts* verdicts);
 
   void Forget();
 
  private:
   bool Step(std::int64_t from_ns, std::int64_t to_ns, std::span<const RangeRateObservation> rates,
-            std::span<const RangeChangeObservation> changes, MotionVerdicts* verdicts);
+            std::span<const RangeChangeObservation> changes, Barometer* barometer,
+            MotionVerdicts* verdicts);
   // What was felt in between, by the phone or else by a vehicle that tells its speed.
   std::span<const InertialSample> Felt(std::int64_t from_ns, std::int64_t to_ns, bool* complete);
   const InertialNoise& noise() const;

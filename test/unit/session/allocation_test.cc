@@ -167,7 +167,8 @@ TEST(SessionAllocation, SensorSamplesAllocateNothingAfterTheFirst) {
   EXPECT_EQ(allocations - before, 0);
 }
 
-// A bending drive with an inertial sensor of a hundred samples a second, carried by it.
+// A bending drive with an inertial sensor of a hundred samples a second, carried by it, and a
+// barometer.
 TEST(SessionAllocation, InertialEpochsAllocateNothingInTheSteadyState) {
   SessionScene scene;
   const InertialScene drive(scene.place);
@@ -180,6 +181,8 @@ TEST(SessionAllocation, InertialEpochsAllocateNothingInTheSteadyState) {
       const std::int64_t time_ns = kSceneStart_ns + felt.time_ns;
       samples[i].push_back({SensorKind::kAccelerometer, time_ns, felt.specific_force_mps2});
       samples[i].push_back({SensorKind::kGyroscope, time_ns, felt.turn_rate_radps});
+      samples[i].push_back(
+          {SensorKind::kBarometer, time_ns, {990.0 + 1e-3 * felt.turn_rate_radps.x(), 0.0, 0.0}});
     }
   }
   scene.options.estimator = Estimator::kFilter;
