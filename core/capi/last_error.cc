@@ -39,8 +39,8 @@ lodemark_status StatusOf(ErrorCode code) {
 lodemark_status Fail(lodemark_status status, const char* format, ...) {
   std::va_list arguments;
   va_start(arguments, format);
-  char text[kLongestError];  // an argument may be the latest error itself
-  if (std::vsnprintf(text, sizeof text, format, arguments) < 0) text[0] = '\0';
+  char text[kLongestError] = "";  // an argument may be the latest error itself
+  std::vsnprintf(text, sizeof text, format, arguments);
   va_end(arguments);
   CopyText(text, std::strlen(text), last_error, sizeof last_error);
   return status;
@@ -57,6 +57,8 @@ lodemark_status Fail(const Error& error) {
   CopyText(error.message.data(), error.message.size(), last_error, sizeof last_error);
   return StatusOf(error.code);
 }
+
+lodemark_status StatusOf(const Status& done) { return done ? LODEMARK_OK : Fail(done.error()); }
 
 void CopyText(const char* text, std::size_t length, char* out, std::size_t capacity) {
   std::size_t kept = std::min(length, capacity - 1);

@@ -25,6 +25,9 @@ lodemark_status FailAt(lodemark_status status, Where where, const char* field, c
 // Keeps the error's message and returns its status.
 lodemark_status Fail(const Error& error);
 
+// LODEMARK_OK, or what Fail makes of the error.
+lodemark_status StatusOf(const Status& done);
+
 // Copies text into a zero-terminated field of capacity bytes, cut between two UTF-8 characters.
 void CopyText(const char* text, std::size_t length, char* out, std::size_t capacity);
 

@@ -40,7 +40,6 @@ constexpr std::uint32_t kAllFlags = LODEMARK_SESSION_VARIANCE_COMPONENTS |
                                     LODEMARK_SESSION_ZENITH_DELAY | LODEMARK_SESSION_HEIGHT_MEMORY |
                                     LODEMARK_SESSION_FIXED_BIASES |
                                     LODEMARK_SESSION_ACCEPT_UNHEALTHY;
-constexpr std::int32_t kLargestQueue = 4096;
 
 lodemark_status CheckOptions(const lodemark_session_options& options) {
   Check check({"options"});
@@ -52,7 +51,6 @@ lodemark_status CheckOptions(const lodemark_session_options& options) {
   check.Constant(options.weight, LODEMARK_WEIGHT_ELEVATION, "weight");
   check.Constant(options.scheme, LODEMARK_SCHEME_GNSS, "scheme");
   check.Constant(options.estimator, LODEMARK_ESTIMATOR_SMOOTHER, "estimator");
-  check.Within(options.queue_capacity, 0, kLargestQueue, "queue_capacity");
   check.Within(options.elevation_mask_deg, -90.0, 90.0, "elevation_mask_deg");
   check.Within(options.smallest_cn0_dbhz, -1000.0, 1000.0, "smallest_cn0_dbhz");
   check.Within(options.elevation_a_m, 0.0, 1e6, "elevation_a_m");
@@ -102,9 +100,11 @@ lodemark_status lodemark_session_open(const lodemark_session_options* options,
       if (status != LODEMARK_OK) return status;
     }
     auto handle = std::make_unique<lodemark_session>();
-    Result<std::unique_ptr<Session>> engine = Session::Open(ToSessionOptions(stated));
+    const SessionOptions accepted = ToSessionOptions(stated);
+    Result<std::unique_ptr<Session>> engine = Session::Open(accepted);
     if (!engine) return Fail(engine.error());
     handle->engine = std::move(engine).value();
+    handle->time_base = accepted.time_base;
     *session = handle.release();
     return lodemark_status{LODEMARK_OK};
   });

@@ -11,6 +11,7 @@
 
 struct lodemark_session {
   std::unique_ptr<lodemark::Session> engine;
+  lodemark::TimeBase time_base = lodemark::TimeBase::kGps;
   // Memory for translating one call, kept so that pushing allocates nothing after the first ones.
   lodemark::AndroidEpoch android_epoch;
   lodemark::ObservationEpoch observation_epoch;

@@ -6,6 +6,7 @@
 
 #include "core/capi/check.h"
 #include "core/capi/guard.h"
+#include "core/capi/sensors.h"
 #include "core/capi/session_handle.h"
 #include "core/capi/structs.h"
 
@@ -26,7 +27,9 @@ constexpr double kSmallestPressure_hpa = 1.0;
 constexpr double kLargestPressure_hpa = 2e3;
 constexpr double kLargestSpeed_mps = 1e3;
 
-lodemark_status Translate(const lodemark_sensor_sample& from, Where where, SensorSample* to) {
+}  // namespace
+
+lodemark_status ReadSample(const lodemark_sensor_sample& from, Where where, SensorSample* to) {
   Check check(where);
   check.True(from.sensor != 0, "sensor", "is missing");
   check.Constant(from.sensor, LODEMARK_SENSOR_VEHICLE, "sensor");
@@ -61,7 +64,6 @@ lodemark_status Translate(const lodemark_sensor_sample& from, Where where, Senso
   return LODEMARK_OK;
 }
 
-}  // namespace
 }  // namespace lodemark
 
 lodemark_status lodemark_session_push_sensors(lodemark_session* session,
@@ -76,10 +78,9 @@ lodemark_status lodemark_session_push_sensors(lodemark_session* session,
     std::vector<SensorSample>& to = session->sensor_samples;
     to.resize(static_cast<std::size_t>(count));
     status = array.ForEach([&](const lodemark_sensor_sample& from, Where where, std::size_t i) {
-      return Translate(from, where, &to[i]);
+      return ReadSample(from, where, &to[i]);
     });
     if (status != LODEMARK_OK) return status;
-    const Status pushed = session->engine->PushSensors(to);
-    return pushed ? LODEMARK_OK : Fail(pushed.error());
+    return StatusOf(session->engine->PushSensors(to));
   });
 }

@@ -1,19 +1,15 @@
 #include "tools/lodemark/replay_sensor_streams.h"
 
-#include <deque>
-#include <optional>
+#include <array>
 #include <utility>
 #include <variant>
 
-#include "core/logs/boot_clock.h"
 #include "core/logs/gnss_logger.h"
+#include "core/logs/logged_samples.h"
 #include "core/logs/sensor_table.h"
 
 namespace lodemark {
 namespace {
-
-// Samples before the first epoch that tells GPS time; three sensors give some 400 in a second.
-constexpr std::size_t kMostWaiting = 100'000;
 
 lodemark_sensor_sample Sample(std::int32_t sensor, std::int64_t time_ns) {
   lodemark_sensor_sample sample = {};
@@ -66,91 +62,47 @@ class TableStream final : public SensorStream {
   std::size_t count_ = 0;
 };
 
+std::int32_t SensorOf(LoggedSensor::Kind kind) {
+  if (kind == LoggedSensor::Kind::kAcceleration) return LODEMARK_SENSOR_ACCELEROMETER;
+  return kind == LoggedSensor::Kind::kTurnRate ? LODEMARK_SENSOR_GYROSCOPE
+                                               : LODEMARK_SENSOR_BAROMETER;
+}
+
 class GnssLogStream final : public SensorStream {
  public:
   explicit GnssLogStream(GnssLoggerReader reader) : reader_(std::move(reader)) {}
 
   const ReadReport& report() const override { return reader_.report(); }
   const Status& status() const override { return reader_.status(); }
-  std::int64_t without_time() const override { return without_time_; }
+  std::int64_t without_time() const override { return samples_.without_time(); }
 
-  // Samples wait for the epoch after them, by which their times are told.
   bool Next(lodemark_sensor_sample* sample) override {
-    while (timed_ == 0) {
-      if (!ReadOn()) return false;
+    LoggedSample logged;
+    while (!samples_.Next(&logged)) {
+      if (ended_) return false;
+      ReadOn();
     }
-    *sample = waiting_.front();
-    waiting_.pop_front();
-    --timed_;
+    *sample = Sample(SensorOf(logged.kind), logged.time_gps_ns);
+    for (std::size_t i = 0; i < 3; ++i) sample->value[i] = logged.value[i];
     return true;
   }
 
  private:
-  bool ReadOn() {
-    if (!reader_.Next(&record_)) {
-      TellTimes();
-      without_time_ += static_cast<std::int64_t>(waiting_.size() - timed_);
-      waiting_.resize(timed_);
-      return timed_ > 0;
+  void ReadOn() {
+    ended_ = !reader_.Next(&record_);
+    if (ended_) {
+      samples_.End();
+    } else if (const auto* epoch = std::get_if<AndroidEpoch>(&record_)) {
+      samples_.Take(*epoch);
+    } else if (const auto* sensor = std::get_if<LoggedSensor>(&record_)) {
+      samples_.Take(*sensor);
     }
-    if (const auto* epoch = std::get_if<AndroidEpoch>(&record_)) {
-      const AndroidClock& clock = epoch->clock;
-      if (clock.Has(kClockHasElapsedRealtime) && clock.Has(kClockHasFullBias)) {
-        clock_.Learn(clock.elapsed_realtime_ns, clock.time_ns - clock.full_bias_ns);
-        TellTimes();
-      }
-    } else if (const auto* logged = std::get_if<LoggedSensor>(&record_)) {
-      Add(*logged);
-    }
-    return true;
-  }
-
-  void TellTimes() {
-    for (; timed_ < waiting_.size(); ++timed_) {
-      lodemark_sensor_sample& sample = waiting_[timed_];
-      const std::optional<std::int64_t> time_ns = clock_.GpsTime(sample.time_ns);
-      if (!time_ns) return;
-      sample.time_ns = *time_ns;
-    }
-  }
-
-  void Add(const LoggedSensor& logged) {
-    std::int32_t sensor = 0;
-    switch (logged.kind) {
-      case LoggedSensor::Kind::kAcceleration:
-        sensor = LODEMARK_SENSOR_ACCELEROMETER;
-        break;
-      case LoggedSensor::Kind::kTurnRate:
-        sensor = LODEMARK_SENSOR_GYROSCOPE;
-        break;
-      case LoggedSensor::Kind::kPressure:
-        sensor = LODEMARK_SENSOR_BAROMETER;
-        break;
-      default:
-        return;
-    }
-    // A log may hold a sensor twice, as it is and without its bias: one of them is enough.
-    std::optional<bool>& uncalibrated = uncalibrated_[static_cast<std::size_t>(sensor)];
-    if (!uncalibrated) uncalibrated = logged.uncalibrated;
-    if (*uncalibrated != logged.uncalibrated) return;
-    if (waiting_.size() - timed_ >= kMostWaiting) {
-      ++without_time_;
-      return;
-    }
-    lodemark_sensor_sample sample = Sample(sensor, logged.elapsed_realtime_ns);
-    for (int i = 0; i < logged.count && i < 3; ++i) {
-      sample.value[i] = logged.values[i] - (logged.uncalibrated ? logged.biases[i] : 0.0);
-    }
-    waiting_.push_back(sample);
   }
 
   GnssLoggerReader reader_;
   GnssLoggerRecord record_;
-  BootClock clock_;
-  std::deque<lodemark_sensor_sample> waiting_;  // the first timed_ have GPS time
-  std::size_t timed_ = 0;
-  std::array<std::optional<bool>, LODEMARK_SENSOR_VEHICLE + 1> uncalibrated_;
-  std::int64_t without_time_ = 0;
+  LoggedSamples samples_;
+  bool ended_ = false;
 };
 
 }  // namespace

@@ -24,7 +24,8 @@ public final class GnssLog extends Handle {
   }
 
   /**
-   * Pushes the next epoch, and first the broadcast messages before it. After {@link
+   * Pushes the next epoch, and first the broadcast messages before it and what the phone's sensors
+   * measured until shortly after it, so process each epoch before the next. After {@link
    * LodemarkException.Status#QUEUE_FULL} the same epoch comes again, after any other refusal the
    * next one.
    *
