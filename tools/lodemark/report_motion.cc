@@ -63,12 +63,8 @@ void AddMotion(const TrajectoryPoint& epoch, ReportEpoch* drawn) {
   if (east && north) drawn->speed_mps = std::hypot(*east, *north);
   drawn->climb_mps = up;
   drawn->speed_accuracy_mps = epoch.speed_accuracy_mps;
-  // An estimate that did not hear the clock, by photographs alone or without rates, states a zero.
-  const auto heard = [](std::optional<double> value) {
-    return value && *value != 0.0 ? value : std::nullopt;
-  };
-  drawn->clock_bias_m = heard(epoch.clock_bias_m);
-  drawn->clock_drift_mps = heard(epoch.clock_drift_mps);
+  drawn->clock_bias_m = epoch.clock_bias_m;
+  drawn->clock_drift_mps = epoch.clock_drift_mps;
   drawn->sources = epoch.sources;
 }
 

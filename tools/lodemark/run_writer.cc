@@ -169,8 +169,12 @@ void RunWriter::WriteTrajectory(const lodemark_estimate& from) {
   for (std::size_t i = 0; i < 6; ++i) {
     to.covariance_enu_m2[i] = known(kPosition, from.covariance_enu_m2[kElements[i]]);
   }
-  to.clock_bias_m = known(kPosition, from.clock_bias_m);
-  to.clock_drift_mps = known(kVelocity, from.clock_drift_mps);
+  // Nothing measured is zero to the last bit: the estimate did not hear the clock.
+  const auto heard = [&](std::uint32_t bit, double value) {
+    return value != 0.0 ? known(bit, value) : std::nullopt;
+  };
+  to.clock_bias_m = heard(kPosition, from.clock_bias_m);
+  to.clock_drift_mps = heard(kVelocity, from.clock_drift_mps);
   to.sources.assign(SourcesWord(from));
   to.satellites_used = from.satellites_used;
   to.hdop = known(kPosition, from.hdop);

@@ -82,10 +82,9 @@ TEST(VelocityErrors, AreTakenWhereBothKnowTheVelocity) {
   EXPECT_FALSE(VelocityErrorsOf({}, TruthVelocity(truth)).horizontal_mps.has_value());
 }
 
-TEST(AddMotion, TakesAClockOfExactlyZeroAsNotHeard) {
+TEST(AddMotion, LeavesOutAClockThatWasNotHeard) {
   TrajectoryPoint epoch;
   epoch.velocity_enu_mps = {3.0, -4.0, 0.5};
-  epoch.clock_bias_m = 0.0;
   epoch.clock_drift_mps = -2.0;
   ReportEpoch drawn;
   AddMotion(epoch, &drawn);
