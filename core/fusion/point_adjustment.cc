@@ -222,6 +222,7 @@ PointStatus PointAdjustment::Solve(std::span<const RangeObservation> observation
           : 0.0;
   const double late_share = late / std::max(1.0, static_cast<double>(observations.size()));
   const double growth = 1.0 + kReflectionsAlike * late_share * std::max(1.0 - from_place, 0.0);
+  estimate->covariance_growth = growth;
   estimate->covariance_enu_m2 *= growth;
   estimate->clock_variance_m2 *= growth;
   Normals at_solution(problem.unknowns());

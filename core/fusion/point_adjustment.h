@@ -54,6 +54,8 @@ struct PointEstimate {
   Eigen::Matrix3d information_pm2 = Eigen::Matrix3d::Zero();
   // The part of it that was stated and not ranged.
   Eigen::Matrix3d stated_information_pm2 = Eigen::Matrix3d::Zero();
+  // How many times the variance is in covariance_enu_m2 that independent errors would leave.
+  double covariance_growth = 1.0;
   GroupMisfit misfit;    // of the ranges, where asked for
   double clock_m = 0.0;  // of group 0
   double clock_variance_m2 = 0.0;

@@ -4,8 +4,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/geo/geodetic.h"
+#include "core/session/explained.h"
 
 namespace lodemark {
 namespace {
@@ -27,10 +29,6 @@ constexpr double kProof = 8.0;
 // Fewer ranges cannot prove that the place is lost, nor find it anew.
 constexpr std::size_t kFewestRanges = 5;
 
-// Ranges, in sum of probabilities, that must be likelier noise than anything else: without a lock
-// all of them look late.
-constexpr double kFewestOrdinary = 1.0;
-
 // Without ranges for so long, what the motion adds outweighs how the first epochs are counted.
 constexpr double kLongestCounting_s = 2.0;
 
@@ -51,17 +49,6 @@ constexpr double kVeryMany = 1e6;
 
 double Seconds(std::int64_t from_ns, std::int64_t to_ns) {
   return 1e-9 * static_cast<double>(to_ns - from_ns);
-}
-
-bool Unexplained(std::span<const ObservationVerdict> verdicts) {
-  if (verdicts.size() < kFewestRanges) return false;
-  double ordinary = 0.0;
-  double late = 0.0;
-  for (const ObservationVerdict& verdict : verdicts) {
-    ordinary += verdict.weight;
-    late += verdict.late_share;
-  }
-  return ordinary < kFewestOrdinary || ordinary + late < 0.5 * static_cast<double>(verdicts.size());
 }
 
 // Covariance of the place by the epoch's ranges alone.
@@ -96,13 +83,15 @@ void EpochFilter::Advance(std::int64_t time_ns, const ObservationEpoch& epoch,
   seconds_ = epoch_ns_ == 0 ? 0.0 : Seconds(epoch_ns_, time_ns);
   epoch_ns_ = time_ns;
   rates_ = model.rates();
-  for (std::size_t i = 0; i < rates_.size(); ++i) {
-    rates_[i].sigma_mps *= trust_.SigmaFactor(epoch.signals[model.rate_signals()[i]].satellite);
+  rate_satellites_.clear();
+  for (const std::size_t signal : model.rate_signals()) {
+    rate_satellites_.push_back(epoch.signals[signal].satellite);
   }
   changes_.clear();
   if (from_epoch) changes_.assign(changes.begin(), changes.end());
+  change_satellites_.clear();
   for (std::size_t i = 0; i < changes_.size(); ++i) {
-    changes_[i].sigma_m *= trust_.SigmaFactor(epoch.signals[phases_.signals()[i]].satellite);
+    change_satellites_.push_back(epoch.signals[phases_.signals()[i]].satellite);
   }
   const Eigen::Vector3d velocity_before = filter_.velocity_in_ecef_mps();
   const double silent_before_s = silent_s_;
@@ -117,6 +106,8 @@ void EpochFilter::Advance(std::int64_t time_ns, const ObservationEpoch& epoch,
 void EpochFilter::Advance(std::int64_t time_ns) {
   rates_.clear();
   changes_.clear();
+  rate_satellites_.clear();
+  change_satellites_.clear();
   Move(time_ns);
 }
 
@@ -126,7 +117,9 @@ void EpochFilter::Move(std::int64_t time_ns) {
     verdicts_ = MotionVerdicts();
     return;
   }
-  if (remembers_) steps_.list.MakeRoom();
+  steps_.MakeRoom(remembers_);
+  HeardStep heard;
+  if (remembers_) heard = MotionHeard(time_ns);
   const std::int64_t from_ns = time_ns_;
   time_ns_ = time_ns;
   if (!filter_.started()) return;
@@ -136,25 +129,68 @@ void EpochFilter::Move(std::int64_t time_ns) {
   }
   silent_s_ += seconds;
   if (silent_s_ > kLongestCounting_s) epochs_ = kVeryMany;
-  filter_.Advance(from_ns, time_ns, rates_, changes_, accelerations_.After(silent_s_), &verdicts_);
-  if (filter_.started()) NoteStep();
+  heard.motion = accelerations_.After(silent_s_);
+  for (std::size_t i = 0; i < rates_.size(); ++i) {
+    rates_[i].sigma_mps *= trust_.SigmaFactor(rate_satellites_[i]);
+  }
+  for (std::size_t i = 0; i < changes_.size(); ++i) {
+    changes_[i].sigma_m *= trust_.SigmaFactor(change_satellites_[i]);
+  }
+  filter_.Advance(from_ns, time_ns, rates_, changes_, heard.motion, &verdicts_);
+  if (filter_.started()) NoteStep(std::move(heard));
 }
 
 void EpochFilter::Start(const Eigen::Vector3d& position_in_ecef,
                         const Eigen::Matrix3d& covariance_enu_m2) {
-  if (remembers_) steps_.list.MakeRoom();
+  steps_.MakeRoom(remembers_);
   filter_.Start(position_in_ecef, covariance_enu_m2);
   silent_s_ = kUsual_s;
   unexplained_s_ = 0.0;
-  NoteStep();
+  HeardStep heard;
+  heard.time_ns = time_ns_;
+  NoteStep(std::move(heard));
+}
+
+HeardStep EpochFilter::MotionHeard(std::int64_t time_ns) const {
+  HeardStep heard;
+  heard.time_ns = time_ns;
+  heard.rates = rates_;
+  heard.rate_satellites = rate_satellites_;
+  heard.changes = changes_;
+  heard.change_satellites = change_satellites_;
+  return heard;
 }
 
 // Room for it was made before anything changed: where memory runs out later, the steps are no
 // longer those of the filter.
-void EpochFilter::NoteStep() {
+void EpochFilter::NoteStep(HeardStep heard) {
+  epoch_said_ = PositionStatement();
+  photos_said_ = PositionStatement();
   if (!remembers_) return;
   steps_.list.Push(filter_.step());
+  steps_.heard.Push(std::move(heard));
   steps_taken_ = steps_.list.end();
+}
+
+void EpochFilter::NoteSaid(const PositionStatement& said, bool ranged) {
+  if (!remembers_) return;
+  PositionStatement& sum = ranged ? epoch_said_ : photos_said_;
+  sum = Together(said, sum);
+  HeardStep& heard = steps_.heard[steps_taken_ - 1];
+  heard.of_epoch = epoch_said_;
+  heard.of_photos = photos_said_;
+}
+
+void EpochFilter::Remember(std::span<const RangeObservation> ranges, const ClockBiases& biases,
+                           const PointOptions& options) {
+  if (!remembers_ || !filter_.started() || ranges.size() != sources_.size()) return;
+  std::vector<RangeObservation> heard(ranges.begin(), ranges.end());
+  std::vector<RangeSource> sources = sources_;
+  HeardStep& step = steps_.heard[steps_taken_ - 1];
+  step.ranges = std::move(heard);
+  step.sources = std::move(sources);
+  step.biases = biases;
+  step.options = options;
 }
 
 std::optional<PositionStatement> EpochFilter::Place() const {
@@ -182,18 +218,24 @@ bool EpochFilter::ProvesLost(double likelier) {
 
 void EpochFilter::HearEpoch(const GnssEpochModel& model, const PointEstimate& point,
                             std::span<const ObservationVerdict> verdicts) {
-  trust_.Learn(seconds_, model.used_signals(), verdicts);
+  sources_.clear();
+  for (const PreparedSignal& signal : model.used_signals()) {
+    sources_.push_back({signal.satellite_id, signal.band, signal.weight.error.sigma_m});
+  }
+  trust_.Learn(seconds_, sources_, verdicts);
   const RangedErrors errors = persistence_.Shares();
   if (!filter_.started()) {
     lost_ = 0.0;
     epochs_ = 1.0;
     lasting_m2_ = errors.lasting * point.covariance_enu_m2;
     ranged_share_.setIdentity();
-    Start(point.position_in_ecef, errors.AlikeEpochs(kUsual_s) * point.covariance_enu_m2);
+    const Eigen::Matrix3d covariance = errors.AlikeEpochs(kUsual_s) * point.covariance_enu_m2;
+    Start(point.position_in_ecef, covariance);
+    NoteSaid({point.position_in_ecef, Inverse(covariance), Eigen::Vector3d::Zero()}, true);
     return;
   }
   if (verdicts.empty()) return;
-  if (Unexplained(verdicts)) {
+  if (verdicts.size() >= kFewestRanges && !Explained(verdicts)) {
     unexplained_s_ += seconds_;
     if (unexplained_s_ > kLongestUnexplained_s) BeginAnew();
     return;
@@ -203,7 +245,7 @@ void EpochFilter::HearEpoch(const GnssEpochModel& model, const PointEstimate& po
   Hear(point, 1.0 / errors.AlikeEpochs(seconds), true);
   epochs_ += 1.0;
   lasting_m2_ += kLastingGain * (errors.lasting * Alone(point) - lasting_m2_);
-  persistence_.Learn(seconds_, model.used_signals(), verdicts);
+  persistence_.Learn(seconds_, sources_, verdicts);
 }
 
 void EpochFilter::HearPhoto(std::int64_t time_ns, std::int64_t taken_ns,
@@ -212,6 +254,8 @@ void EpochFilter::HearPhoto(std::int64_t time_ns, std::int64_t taken_ns,
     time_ns_ = time_ns;
     ranged_share_.setZero();
     Start(point.position_in_ecef, point.covariance_enu_m2);
+    NoteSaid({point.position_in_ecef, Inverse(point.covariance_enu_m2), Eigen::Vector3d::Zero()},
+             false);
   } else {
     const double since_s = photo_ns_ == 0 ? kPhotosAlike_s : std::abs(Seconds(photo_ns_, taken_ns));
     Hear(point, std::min(1.0, since_s / kPhotosAlike_s), false);
@@ -235,6 +279,7 @@ void EpochFilter::Hear(const PointEstimate& point, double share, bool ranged) {
   said.pull_pm =
       share * information * (enu_from_ecef * (point.position_in_ecef - before.around_in_ecef));
   filter_.Hear(said);
+  NoteSaid(said, ranged);
   if (remembers_) steps_.list[steps_taken_ - 1] = filter_.step();
   const Eigen::Matrix3d gain = filter_.PositionCovarianceEnu() * said.information_pm2;
   ranged_share_ -= gain * ranged_share_;
@@ -257,11 +302,17 @@ void EpochFilter::GoBackTo(const EpochFilter& copy) {
   *this = copy;
   if (!remembers_) return;
   steps_.list.CutFrom(steps_taken_);
+  steps_.heard.CutFrom(steps_taken_);
   if (!filter_.started()) return;
   if (steps_.list.Has(steps_taken_ - 1)) {
-    steps_.list[steps_taken_ - 1] = filter_.step();  // it may have heard more since it was copied
+    // It may have heard more since it was copied.
+    steps_.list[steps_taken_ - 1] = filter_.step();
+    steps_.heard[steps_taken_ - 1].of_epoch = epoch_said_;
+    steps_.heard[steps_taken_ - 1].of_photos = photos_said_;
   } else {
-    NoteStep();  // it was given up meanwhile
+    HeardStep heard;  // it was given up meanwhile
+    heard.time_ns = time_ns_;
+    NoteStep(std::move(heard));
   }
 }
 
@@ -272,6 +323,7 @@ void EpochFilter::Forget() {
 
 void EpochFilter::ForgetSteps() {
   steps_.list.Clear();
+  steps_.heard.Clear();
   steps_taken_ = 0;
 }
 

@@ -15,6 +15,7 @@
 #include "core/session/carried_motion.h"
 #include "core/session/error_persistence.h"
 #include "core/session/gnss_epoch.h"
+#include "core/session/heard_step.h"
 #include "core/session/numbered_list.h"
 #include "core/session/phase_changes.h"
 #include "core/session/satellite_trust.h"
@@ -42,6 +43,7 @@ class EpochFilter {
   // Of the position as the filter has it.
   Eigen::Matrix3d FilteredCovarianceEnu() const;
   const NumberedList<MotionStep>& steps() const { return steps_.list; }
+  const NumberedList<HeardStep>& heard() const { return steps_.heard; }  // of the same numbers
   // How far the position rests on ranges: it moves by this times what moves them all.
   const Eigen::Matrix3d& ranged_share() const { return ranged_share_; }
 
@@ -64,6 +66,9 @@ class EpochFilter {
   // From the adjustment that heard Place() and the ranges of the epoch advanced to.
   void HearEpoch(const GnssEpochModel& model, const PointEstimate& point,
                  std::span<const ObservationVerdict> verdicts);
+  // What that adjustment heard beside Place(), for going the way again; after HearEpoch.
+  void Remember(std::span<const RangeObservation> ranges, const ClockBiases& biases,
+                const PointOptions& options);
   // From one that heard Place(), if there was one, and a photograph taken near by; of a moment.
   void HearPhoto(std::int64_t time_ns, std::int64_t taken_ns, const PointEstimate& point);
 
@@ -79,14 +84,23 @@ class EpochFilter {
     Steps() = default;
     Steps(const Steps&) {}
     Steps& operator=(const Steps&) { return *this; }
+    // Of both lists, so that noting a step takes no memory.
+    void MakeRoom(bool remembers) {
+      if (!remembers) return;
+      list.MakeRoom();
+      heard.MakeRoom();
+    }
     NumberedList<MotionStep> list;
+    NumberedList<HeardStep> heard;
   };
 
   void Doubt(double likelier);
   void BeginAnew();
   void Move(std::int64_t time_ns);
   void Start(const Eigen::Vector3d& position_in_ecef, const Eigen::Matrix3d& covariance_enu_m2);
-  void NoteStep();
+  HeardStep MotionHeard(std::int64_t time_ns) const;
+  void NoteStep(HeardStep heard);
+  void NoteSaid(const PositionStatement& said, bool ranged);
   // Hears what an adjustment made of the present state, as strong as a share of it.
   void Hear(const PointEstimate& point, double share, bool ranged);
 
@@ -95,12 +109,18 @@ class EpochFilter {
   CarriedMotion filter_;
   Steps steps_;
   std::size_t steps_taken_ = 0;  // the number after the last one
+  // What was said of the place at the last of them.
+  PositionStatement epoch_said_;
+  PositionStatement photos_said_;
   PhaseChanges phases_;
   ErrorPersistence persistence_;
   SatelliteTrust trust_;
   AccelerationMemory accelerations_;
   std::vector<RangeRateObservation> rates_;
   std::vector<RangeChangeObservation> changes_;
+  std::vector<SatelliteId> rate_satellites_;
+  std::vector<SatelliteId> change_satellites_;
+  std::vector<RangeSource> sources_;  // of the epoch's ranges
   MotionVerdicts verdicts_;
   std::int64_t time_ns_ = 0;   // of the state
   std::int64_t epoch_ns_ = 0;  // of the last epoch

@@ -117,6 +117,7 @@ void EpochSolver::Solve(const ObservationEpoch& epoch, const PhotoPart& photo,
   if (filters()) {
     LookForLostFilter(point_.position_in_ecef, PointOptionsAt(epoch.time_gps_ns));
     filter_.HearEpoch(model_, point_, verdicts_);
+    filter_.Remember(ranges_, biases_, PointOptionsAt(epoch.time_gps_ns));
   }
   last_place_in_ecef_ = point_.position_in_ecef;
   // So few ranges only help what the motion carries on.

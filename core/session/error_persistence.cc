@@ -75,7 +75,7 @@ RangedErrors ErrorPersistence::Shares() const {
   return {shares.white / sum, shares.passing / sum, shares.lasting / sum};
 }
 
-void ErrorPersistence::Learn(double seconds, const std::vector<PreparedSignal>& signals,
+void ErrorPersistence::Learn(double seconds, std::span<const RangeSource> sources,
                              std::span<const ObservationVerdict> verdicts) {
   if (!(seconds > 0.0)) return;
   if (seconds > kSparsest_s) {
@@ -86,14 +86,14 @@ void ErrorPersistence::Learn(double seconds, const std::vector<PreparedSignal>& 
   const double brief_gain = std::min(1.0, seconds / kBrief_s);
   const double extended_gain = std::min(1.0, seconds / kExtended_s);
   for (Track& track : tracks_) track.seen = false;
-  for (std::size_t i = 0; i < signals.size() && i < verdicts.size(); ++i) {
+  for (std::size_t i = 0; i < sources.size() && i < verdicts.size(); ++i) {
     if (verdicts[i].weight < kOrdinary || !verdicts[i].observable) continue;
-    const double residual = verdicts[i].residual_m / signals[i].weight.error.sigma_m;
+    const double residual = verdicts[i].residual_m / sources[i].sigma_m;
     auto track = std::find_if(tracks_.begin(), tracks_.end(), [&](const Track& known) {
-      return known.satellite == signals[i].satellite_id && known.band == signals[i].band;
+      return known.satellite == sources[i].satellite && known.band == sources[i].band;
     });
     if (track == tracks_.end()) {
-      track = tracks_.insert(track, Track{signals[i].satellite_id, signals[i].band});
+      track = tracks_.insert(track, Track{sources[i].satellite, sources[i].band});
     }
     track->seen = true;
     track->heard_s += seconds;

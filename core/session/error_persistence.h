@@ -31,7 +31,7 @@ class ErrorPersistence {
  public:
   RangedErrors Shares() const;
 
-  void Learn(double seconds, const std::vector<PreparedSignal>& signals,
+  void Learn(double seconds, std::span<const RangeSource> sources,
              std::span<const ObservationVerdict> verdicts);
   void Forget();
 

@@ -60,6 +60,13 @@ struct PreparedSignal {
   bool merged = false;    // into another signal of the satellite
 };
 
+// Whose range it is, as far as its errors are alike from epoch to epoch.
+struct RangeSource {
+  SatelliteId satellite;
+  char band = '1';
+  double sigma_m = 1.0;  // of ordinary noise
+};
+
 // A signal that became part of another's range; both indices into ObservationEpoch::signals.
 struct MergedSignal {
   std::size_t index = 0;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace lodemark {
@@ -15,7 +16,7 @@ class NumberedList {
     if (elements_.size() < elements_.capacity()) return;
     elements_.reserve(2 * elements_.capacity() + 16);
   }
-  void Push(const Element& element) { elements_.push_back(element); }
+  void Push(Element element) { elements_.push_back(std::move(element)); }
 
   // Of the oldest that is held, and one beyond the newest.
   std::size_t first() const { return given_up_ + gone_; }

@@ -9,6 +9,16 @@
 
 namespace lodemark {
 
+// Of a satellite nobody has heard of yet.
+inline constexpr double kUnknownTrust = 0.5;
+// Streets come and go within seconds.
+inline constexpr double kTrustMemory_s = 2.0;
+
+// In the rate and phase of a satellite, 0..1, by how one of its ranges fared.
+double TrustIn(const ObservationVerdict& verdict);
+// How many times their stated sigma they have then.
+double SigmaFactorOfTrust(double trust);
+
 // The Doppler and the phase of a reflected signal are those of the reflection: they are worth what
 // the code range of the satellite was worth in the moments before.
 class SatelliteTrust {
@@ -16,7 +26,7 @@ class SatelliteTrust {
   // How many times their stated sigma rates and phases of a satellite have.
   double SigmaFactor(SatelliteId satellite) const;
 
-  void Learn(double seconds, const std::vector<PreparedSignal>& signals,
+  void Learn(double seconds, std::span<const RangeSource> sources,
              std::span<const ObservationVerdict> verdicts);
   void Forget() { satellites_.clear(); }
 

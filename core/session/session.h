@@ -271,7 +271,7 @@ class Session {
   std::span<const SatelliteStatus> satellites() const;  // of the epoch processed last
   std::span<const LandmarkStatus> landmarks() const;    // of the photograph the estimate looked at
   // All estimates so far in the order they were given, each with what came after it: empty without
-  // Estimator::kSmoother. Remembers some 2 kB for each.
+  // Estimator::kSmoother. Remembers some 8 kB for each.
   std::vector<SessionEstimate> Smoothed() const;
   // Events since the last call of ClearEvents, at most 256; the oldest give way.
   std::span<const SessionEvent> events() const;

@@ -1,8 +1,11 @@
 #include "core/session/smoothed_way.h"
 
+#include <utility>
+
 #include "core/fusion/motion_smoother.h"
 #include "core/geo/geodetic.h"
 #include "core/session/stated_accuracy.h"
+#include "core/session/way_again.h"
 
 namespace lodemark {
 
@@ -26,17 +29,20 @@ SmoothedWay::Moment SmoothedWay::MomentOf(const SessionEstimate& estimate,
 }
 
 std::size_t SmoothedWay::Note(const SessionEstimate& estimate, const EpochFilter& filter) {
+  estimates_.reset();
   moments_.Push(MomentOf(estimate, filter));
   return moments_.end() - 1;
 }
 
 void SmoothedWay::NoteAgain(std::size_t number, const SessionEstimate& estimate,
                             const EpochFilter& filter) {
+  estimates_.reset();
   if (moments_.Has(number)) moments_[number] = MomentOf(estimate, filter);
 }
 
-std::vector<SessionEstimate> SmoothedWay::Estimates(const EpochFilter& filter) const {
-  const std::vector<MotionState> states = SmoothMotion(filter.steps().all());
+const std::vector<SessionEstimate>& SmoothedWay::Estimates(const EpochFilter& filter) {
+  if (estimates_) return *estimates_;
+  const std::vector<MotionState> states = GoAgain(filter.steps().all(), filter.heard().all());
   std::vector<SessionEstimate> estimates;
   estimates.reserve(moments_.all().size());
   for (const Moment& moment : moments_.all()) {
@@ -59,7 +65,7 @@ std::vector<SessionEstimate> SmoothedWay::Estimates(const EpochFilter& filter) c
     }
     estimates.push_back(estimate);
   }
-  return estimates;
+  return estimates_.emplace(std::move(estimates));
 }
 
 }  // namespace lodemark

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/session/epoch_filter.h"
@@ -18,10 +19,13 @@ class SmoothedWay {
   // What it would be after what came late.
   void NoteAgain(std::size_t number, const SessionEstimate& estimate, const EpochFilter& filter);
 
-  // One for each moment noted, in that order.
-  std::vector<SessionEstimate> Estimates(const EpochFilter& filter) const;
+  // One for each moment noted, in that order. Made once, until the next is noted.
+  const std::vector<SessionEstimate>& Estimates(const EpochFilter& filter);
 
-  void Forget() { moments_.Clear(); }
+  void Forget() {
+    moments_.Clear();
+    estimates_.reset();
+  }
 
  private:
   struct Moment {
@@ -35,6 +39,7 @@ class SmoothedWay {
   static Moment MomentOf(const SessionEstimate& estimate, const EpochFilter& filter);
 
   NumberedList<Moment> moments_;
+  std::optional<std::vector<SessionEstimate>> estimates_;
 };
 
 }  // namespace lodemark

@@ -71,21 +71,21 @@ class Source {
 RangedErrors LearnedFrom(const RangedErrors& truth, double seconds, double weight = 1.0) {
   constexpr std::size_t kSatellites = 30;
   Random random(17);
-  std::vector<PreparedSignal> signals(kSatellites);
+  std::vector<RangeSource> ranges(kSatellites);
   std::vector<ObservationVerdict> verdicts(kSatellites);
   std::vector<Source> sources;
   for (std::size_t i = 0; i < kSatellites; ++i) {
-    signals[i].satellite_id = {System::kGps, static_cast<std::uint8_t>(i + 1)};
-    signals[i].weight.error.sigma_m = 2.0 + static_cast<double>(i);
+    ranges[i].satellite = {System::kGps, static_cast<std::uint8_t>(i + 1)};
+    ranges[i].sigma_m = 2.0 + static_cast<double>(i);
     sources.emplace_back(truth, &random);
   }
   ErrorPersistence persistence;
   for (double second = 0.0; second < 400.0; second += seconds) {
     for (std::size_t i = 0; i < kSatellites; ++i) {
-      verdicts[i].residual_m = signals[i].weight.error.sigma_m * sources[i].Next(seconds);
+      verdicts[i].residual_m = ranges[i].sigma_m * sources[i].Next(seconds);
       verdicts[i].weight = weight;
     }
-    persistence.Learn(seconds, signals, verdicts);
+    persistence.Learn(seconds, ranges, verdicts);
   }
   return persistence.Shares();
 }
@@ -117,10 +117,10 @@ TEST(ErrorPersistence, OutliersTeachNothing) {
 
 TEST(ErrorPersistence, TimesThatDoNotAdvanceTeachNothing) {
   ErrorPersistence persistence;
-  const std::vector<PreparedSignal> signals(3);
+  const std::vector<RangeSource> ranges(3);
   const std::vector<ObservationVerdict> verdicts(3, ObservationVerdict{5.0, 1.0, 0.0, true, true});
   for (const double seconds : {0.0, -1e9, std::nan("")}) {
-    persistence.Learn(seconds, signals, verdicts);
+    persistence.Learn(seconds, ranges, verdicts);
   }
   EXPECT_NEAR(persistence.Shares().white, RangedErrors().white, 1e-9);
 }

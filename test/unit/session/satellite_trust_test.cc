@@ -13,10 +13,9 @@ constexpr SatelliteId kOther = {System::kGps, 7};
 
 // So many seconds of one verdict a second.
 void Learn(double weight, double late_share, int seconds, SatelliteTrust* trust) {
-  std::vector<PreparedSignal> signals(1);
-  signals[0].satellite_id = kSatellite;
+  const std::vector<RangeSource> sources = {{kSatellite}};
   const std::vector<ObservationVerdict> verdicts = {{0.0, weight, late_share, weight >= 0.5, true}};
-  for (int i = 0; i < seconds; ++i) trust->Learn(1.0, signals, verdicts);
+  for (int i = 0; i < seconds; ++i) trust->Learn(1.0, sources, verdicts);
 }
 
 TEST(SatelliteTrust, AStrangerIsNeitherBelievedNorRefused) {
@@ -52,14 +51,11 @@ TEST(SatelliteTrust, AReflectionIsWorthALittleMoreThanNonsense) {
 }
 
 TEST(SatelliteTrust, ItsSignalsAreHeardTogetherAndOthersNot) {
-  std::vector<PreparedSignal> signals(3);
-  signals[0].satellite_id = kSatellite;
-  signals[1].satellite_id = kOther;
-  signals[2].satellite_id = kSatellite;
+  const std::vector<RangeSource> sources = {{kSatellite}, {kOther}, {kSatellite}};
   const std::vector<ObservationVerdict> verdicts = {
       {0.0, 1.0, 0.0, true, true}, {0.0, 1.0, 0.0, true, true}, {0.0, 0.0, 0.0, false, true}};
   SatelliteTrust trust;
-  for (int i = 0; i < 30; ++i) trust.Learn(1.0, signals, verdicts);
+  for (int i = 0; i < 30; ++i) trust.Learn(1.0, sources, verdicts);
   EXPECT_NEAR(trust.SigmaFactor(kSatellite), 2.0, 0.01);
   EXPECT_NEAR(trust.SigmaFactor(kOther), 1.0, 0.01);
 }
@@ -76,10 +72,9 @@ TEST(SatelliteTrust, TimesThatDoNotAdvanceTeachNothing) {
     SatelliteTrust trust;
     Learn(1.0, 0.0, 10, &trust);
     const double before = trust.SigmaFactor(kSatellite);
-    std::vector<PreparedSignal> signals(1);
-    signals[0].satellite_id = kSatellite;
+    const std::vector<RangeSource> sources = {{kSatellite}};
     const std::vector<ObservationVerdict> gross(1);
-    trust.Learn(seconds, signals, gross);
+    trust.Learn(seconds, sources, gross);
     EXPECT_EQ(trust.SigmaFactor(kSatellite), before) << seconds;
   }
 }
