@@ -83,8 +83,9 @@ void EpochFilter::Advance(std::int64_t time_ns, const ObservationEpoch& epoch,
   seconds_ = epoch_ns_ == 0 ? 0.0 : Seconds(epoch_ns_, time_ns);
   epoch_ns_ = time_ns;
   rates_ = model.rates();
+  rate_signals_ = model.rate_signals();
   rate_satellites_.clear();
-  for (const std::size_t signal : model.rate_signals()) {
+  for (const std::size_t signal : rate_signals_) {
     rate_satellites_.push_back(epoch.signals[signal].satellite);
   }
   changes_.clear();
@@ -112,6 +113,7 @@ void EpochFilter::Advance(std::int64_t time_ns) {
 }
 
 void EpochFilter::Move(std::int64_t time_ns) {
+  verdicts_.rates_agree = false;
   const double seconds = Seconds(time_ns_, time_ns);
   if (filter_.started() && seconds >= 0.0 && seconds < kShortest_s) {
     verdicts_ = MotionVerdicts();

@@ -43,6 +43,13 @@ class EpochFilter {
   // Of the position as the filter has it.
   Eigen::Matrix3d FilteredCovarianceEnu() const;
   const NumberedList<MotionStep>& steps() const { return steps_.list; }
+  // What the rates of the epoch advanced to were worth, and which of its signals each is of: empty
+  // where they do not fit one velocity.
+  std::span<const MotionVerdict> rate_verdicts() const {
+    return verdicts_.rates_agree ? std::span<const MotionVerdict>(verdicts_.rates)
+                                 : std::span<const MotionVerdict>();
+  }
+  std::span<const std::size_t> rate_signals() const { return rate_signals_; }
   const NumberedList<HeardStep>& heard() const { return steps_.heard; }  // of the same numbers
   // How far the position rests on ranges: it moves by this times what moves them all.
   const Eigen::Matrix3d& ranged_share() const { return ranged_share_; }
@@ -117,6 +124,7 @@ class EpochFilter {
   SatelliteTrust trust_;
   AccelerationMemory accelerations_;
   std::vector<RangeRateObservation> rates_;
+  std::vector<std::size_t> rate_signals_;
   std::vector<RangeChangeObservation> changes_;
   std::vector<SatelliteId> rate_satellites_;
   std::vector<SatelliteId> change_satellites_;

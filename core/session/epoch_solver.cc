@@ -302,7 +302,17 @@ void EpochSolver::Judge(SessionEstimate* estimate, std::vector<SatelliteStatus>*
 }
 
 void EpochSolver::SolveVelocity(SessionEstimate* estimate, std::vector<SatelliteStatus>* statuses) {
-  if (filters()) return;
+  const auto note = [&](std::size_t signal, double residual_mps) {
+    (*statuses)[signal].has_rate_residual = true;
+    (*statuses)[signal].range_rate_residual_mps = residual_mps;
+  };
+  if (filters()) {
+    const std::span<const MotionVerdict> verdicts = filter_.rate_verdicts();
+    for (std::size_t i = 0; i < verdicts.size(); ++i) {
+      note(filter_.rate_signals()[i], verdicts[i].residual);
+    }
+    return;
+  }
   if (!AdjustVelocity(model_.rates(), &velocity_, &rate_verdicts_)) return;
   const Eigen::Matrix3d enu_from_ecef = EnuFromEcefRotation(estimate->position);
   estimate->has_velocity = true;
@@ -312,9 +322,7 @@ void EpochSolver::SolveVelocity(SessionEstimate* estimate, std::vector<Satellite
   StateAccuracy(estimate);
   estimate->clock_drift_mps = velocity_.clock_drift_mps;
   for (std::size_t i = 0; i < rate_verdicts_.size(); ++i) {
-    SatelliteStatus& satellite = (*statuses)[model_.rate_signals()[i]];
-    satellite.has_rate_residual = true;
-    satellite.range_rate_residual_mps = rate_verdicts_[i].residual_mps;
+    note(model_.rate_signals()[i], rate_verdicts_[i].residual_mps);
   }
 }
 

@@ -52,6 +52,23 @@ TEST(EpochFilter, ErrsLessThanSingleEpochsAndAsMuchAsItSays) {
   }
 }
 
+TEST(EpochFilter, TellsByHowMuchEachDopplerMissesItsVelocity) {
+  const FilterScene filter_scene(kDriving_mps);
+  std::vector<ObservationEpoch> drive = filter_scene.Drive(10);
+  constexpr double kFault_mps = 3.0;
+  SignalObservation& faulty = drive.back().signals[2];
+  faulty.doppler_hz -= kFault_mps * faulty.frequency_hz / kSpeedOfLight_mps;
+  drive.back().signals[4].present &= ~kHasDoppler;
+  const std::unique_ptr<Session> session = filter_scene.scene.Open();
+  FilterScene::Run(session.get(), drive);
+  ASSERT_EQ(session->satellites().size(), drive.back().signals.size());
+  for (std::size_t i = 0; i < session->satellites().size(); ++i) {
+    const SatelliteStatus& satellite = session->satellites()[i];
+    EXPECT_EQ(satellite.has_rate_residual, i != 4) << i;
+    EXPECT_NEAR(satellite.range_rate_residual_mps, i == 2 ? kFault_mps : 0.0, 0.25) << i;
+  }
+}
+
 TEST(EpochFilter, StandingStillItDoesNotWander) {
   const FilterScene filter_scene(kStill_mps);
   const std::vector<SessionEstimate> estimates = filter_scene.Run(filter_scene.Drive(90));
