@@ -68,6 +68,23 @@ public final class CameraImage {
     return this;
   }
 
+  /**
+   * How the camera sits in the device whose inertial sensors the session is fed with. Where nothing
+   * is set of how it was held ({@link #setGravity}), samples of the accelerometer around the
+   * exposure then tell what is up.
+   *
+   * @param wxyz unit quaternion that turns axes of the sensors (of a phone: x to the right and y up
+   *     along the screen, z out of it) into those of the camera (x right and y down in the
+   *     photograph, z forward). Of a phone's back camera: 0, cos(a / 2), -sin(a / 2), 0 with a
+   *     Android's SENSOR_ORIENTATION
+   * @return this
+   */
+  public CameraImage setCameraFromDevice(double[] wxyz) {
+    Struct.putDoubles(frame, Layout.Frame.CAMERA_FROM_DEVICE, Struct.checked(wxyz, 4, "wxyz"));
+    Struct.setBit(frame, Layout.Frame.PRESENT, Values.FRAME_HAS_CAMERA_FROM_DEVICE);
+    return this;
+  }
+
   Lens lens() {
     return lens;
   }

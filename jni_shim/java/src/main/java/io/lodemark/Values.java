@@ -58,6 +58,7 @@ final class Values {
   static final int MEASUREMENT_HAS_GIVEN_PSEUDORANGE = 0x1000;
   static final int FRAME_HAS_GRAVITY = 0x1;
   static final int FRAME_HAS_HEADING = 0x2;
+  static final int FRAME_HAS_CAMERA_FROM_DEVICE = 0x4;
   static final int SENSOR_ACCELEROMETER = 1;
   static final int SENSOR_GYROSCOPE = 2;
   static final int SENSOR_BAROMETER = 3;

@@ -308,7 +308,15 @@ class SessionTest {
                             .setGravity(new double[] {0, -9.8, 0}, 2)
                             .setHeading(90, 10);
     assertThrows(IllegalArgumentException.class, () -> image.setGravity(new double[2], 2));
+    assertThrows(
+        IllegalArgumentException.class, () -> image.setCameraFromDevice(new double[] {0, 0, 1}));
+    assertThrows(NullPointerException.class, () -> image.setCameraFromDevice(null));
     try (PositioningSession session = PositioningSession.open()) {
+      assertEquals(LodemarkException.Status.OUT_OF_ORDER, refusal(() -> session.pushImage(image)));
+      image.setCameraFromDevice(new double[] {0, 1, -1, 0}); // no unit quaternion
+      assertEquals(
+          LodemarkException.Status.INVALID_ARGUMENT, refusal(() -> session.pushImage(image)));
+      image.setCameraFromDevice(new double[] {0, Math.sqrt(0.5), -Math.sqrt(0.5), 0});
       assertEquals(LodemarkException.Status.OUT_OF_ORDER, refusal(() -> session.pushImage(image)));
     }
   }

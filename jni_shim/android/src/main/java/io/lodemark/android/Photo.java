@@ -22,6 +22,7 @@ final class Photo {
   final long bootNanos; // of the middle of the exposure, in the middle row
   final int sensorOrientation;
   final boolean front;
+  final double[] cameraFromDevice; // quaternion w, x, y, z; null if not known
 
   private Photo(ByteBuffer pixels, int width, int height, Lens lens, CaptureResult capture,
       CameraCharacteristics camera) {
@@ -37,6 +38,7 @@ final class Photo {
     sensorOrientation = orientation == null ? 0 : orientation;
     Integer facing = camera.get(CameraCharacteristics.LENS_FACING);
     front = facing != null && facing == CameraMetadata.LENS_FACING_FRONT;
+    cameraFromDevice = CameraAxes.fromDevice(camera, capture);
   }
 
   /** Why it cannot be used, and what to do about it; null if it can. */

@@ -116,6 +116,8 @@ final class SessionFeeder {
     image.setTimeNanos(inSession(photo.bootNanos));
     if (up != null)
       image.setGravity(up, Tilt.SIGMA_DEGREES);
+    if (photo.cameraFromDevice != null)
+      image.setCameraFromDevice(photo.cameraFromDevice);
     if (push(FeedKind.IMAGE, 1, () -> session.pushImage(image)))
       process();
   }

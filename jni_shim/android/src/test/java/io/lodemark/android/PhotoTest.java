@@ -25,6 +25,7 @@ import org.robolectric.RobolectricTestRunner;
 import org.robolectric.Shadows;
 import org.robolectric.annotation.Config;
 import org.robolectric.annotation.GraphicsMode;
+import org.robolectric.shadows.ShadowCameraCharacteristics;
 
 /** What is made of an Image and of what Android says of its camera. */
 @RunWith(RobolectricTestRunner.class)
@@ -151,6 +152,87 @@ public class PhotoTest {
     assertArrayEquals(new double[] {0, 0, -1}, tilt.upInCamera(2_000_000_000L, 90, false), 1e-6);
     assertArrayEquals(new double[] {0, 0, 1}, tilt.upInCamera(2_000_000_000L, 90, true), 1e-6);
     assertNull(tilt.upInCamera(3_000_000_000L, 90, false));
+  }
+
+  /** The vector turned by a quaternion w, x, y, z. */
+  private static double[] turned(double[] q, double... v) {
+    double[] t = new double[3];
+    double[] out = new double[3];
+    for (int i = 0; i < 3; ++i) {
+      int j = (i + 1) % 3;
+      int k = (i + 2) % 3;
+      t[i] = 2 * (q[1 + j] * v[k] - q[1 + k] * v[j]);
+    }
+    for (int i = 0; i < 3; ++i) {
+      int j = (i + 1) % 3;
+      int k = (i + 2) % 3;
+      out[i] = v[i] + q[0] * t[i] + q[1 + j] * t[k] - q[1 + k] * t[j];
+    }
+    return out;
+  }
+
+  private static double[] axes(CameraCharacteristics camera) {
+    Photo photo = Photo.copy(image(3, 1, Phone.TAKEN), Phone.capture(Phone.TAKEN), camera, null);
+    return photo.cameraFromDevice;
+  }
+
+  @Test
+  public void aBackCameraLooksOutOfThePhonesBack() {
+    double[] back = axes(CAMERA); // a phone's usual: turned by 90
+    assertArrayEquals(new double[] {0, 0, -1}, turned(back, 0, 0, 1), 1e-9);
+    // Up along the screen is at the left of such a photograph; to the right on it is up.
+    assertArrayEquals(new double[] {-1, 0, 0}, turned(back, 0, 1, 0), 1e-9);
+    assertArrayEquals(new double[] {0, -1, 0}, turned(back, 1, 0, 0), 1e-9);
+  }
+
+  @Test
+  public void theAxesAndTheTiltSayTheSame() {
+    Tilt tilt = new Tilt();
+    float norm = (float) Math.sqrt(0.1 * 0.1 + 0.5 * 0.5 + 0.3 * 0.3 + 0.8 * 0.8);
+    double[] q = {0.8 / norm, -0.1 / norm, 0.5 / norm, 0.3 / norm};
+    tilt.add(1_000_000_000L, (float) q[1], (float) q[2], (float) q[3], (float) q[0]);
+    double[] up = turned(new double[] {q[0], -q[1], -q[2], -q[3]}, 0, 0, 1); // in the phone
+    for (boolean front : new boolean[] {false, true}) {
+      for (int orientation = 0; orientation < 360; orientation += 90) {
+        assertArrayEquals(tilt.upInCamera(1_000_000_000L, orientation, front),
+            turned(CameraAxes.mounted(orientation, front), up[0], up[1], up[2]), 1e-6);
+      }
+    }
+  }
+
+  @Test
+  public void aStatedRotationIsBelievedIfItFits() {
+    CameraCharacteristics camera = Phone.camera(true, true);
+    double tilted = Math.toRadians(2); // about the camera's x axis
+    double half = Math.sqrt(0.5);
+    float[] stated = {(float) (half * Math.cos(tilted / 2)), (float) (-half * Math.cos(tilted / 2)),
+        (float) (-half * Math.sin(tilted / 2)), (float) (-half * Math.sin(tilted / 2))};
+    Shadows.shadowOf(camera).set(CameraCharacteristics.LENS_POSE_ROTATION, stated);
+    double[] axis = turned(axes(camera), 0, 0, -1);
+    assertEquals(Math.cos(tilted), axis[2], 1e-6);
+    assertEquals(Math.sin(tilted), Math.hypot(axis[0], axis[1]), 1e-6);
+    // Of axes that are not the sensors', nonsense, or none at all: as the sensor is mounted.
+    Shadows.shadowOf(camera).set(
+        CameraCharacteristics.LENS_POSE_REFERENCE, CameraMetadata.LENS_POSE_REFERENCE_UNDEFINED);
+    assertArrayEquals(axes(CAMERA), axes(camera), 0);
+    for (float[] nonsense :
+        new float[][] {{0, 0, 0, 1}, {0, 0, 0, 0}, {Float.NaN, 0, 0, 1}, {1, 0}}) {
+      CameraCharacteristics other = Phone.camera(true, true);
+      Shadows.shadowOf(other).set(CameraCharacteristics.LENS_POSE_ROTATION, nonsense);
+      assertArrayEquals(axes(CAMERA), axes(other), 0);
+    }
+  }
+
+  @Test
+  public void anExternalCameraMayBeHeldAnywhere() {
+    CameraCharacteristics camera = ShadowCameraCharacteristics.newCameraCharacteristics();
+    CaptureResult capture = Phone.capture(Phone.TAKEN);
+    assertNull(CameraAxes.fromDevice(camera, capture)); // nor one that says nothing
+    Shadows.shadowOf(camera).set(CameraCharacteristics.SENSOR_ORIENTATION, 0);
+    assertNull(CameraAxes.fromDevice(camera, capture));
+    Shadows.shadowOf(camera).set(
+        CameraCharacteristics.LENS_FACING, CameraMetadata.LENS_FACING_EXTERNAL);
+    assertNull(CameraAxes.fromDevice(camera, capture));
   }
 
   @Test
