@@ -71,7 +71,9 @@ std::optional<std::int64_t> ParseTime(std::string_view line, const Layout& layou
   const std::optional<std::int64_t> minute_ns = NanosecondsFromCalendar(minute);
   if (!minute_ns) return std::nullopt;
   // A leap second, 23:59:60, belongs to its own minute: convert that and add.
-  return GpsFromScale(*minute_ns, scale) + *seconds_ns;
+  const std::int64_t time_gps_ns = GpsFromScale(*minute_ns, scale) + *seconds_ns;
+  // The first days of 1980 are before GPS time.
+  return time_gps_ns >= 0 ? std::optional(time_gps_ns) : std::nullopt;
 }
 
 std::optional<RinexEpochTag> ParseTag(std::string_view line, const Layout& layout,

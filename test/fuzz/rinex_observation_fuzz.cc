@@ -67,7 +67,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::size_t signal_count = 0;
   ObservationEpoch epoch;
   while (signal_count < kMostSignals && epochs.size() < kMostEpochs && reader->Next(&epoch)) {
-    Require(epoch.time_gps_ns > -kDay_ns && epoch.time_gps_ns < 121 * 366 * kDay_ns);
+    Require(epoch.time_gps_ns >= 0 && epoch.time_gps_ns < 121 * 366 * kDay_ns);
     for (const SignalObservation& signal : epoch.signals) CheckSignal(signal);
     signal_count += epoch.signals.size();
     epochs.push_back(epoch);

@@ -360,6 +360,17 @@ TEST(RinexObservation, FindsTheNextEpochAfterDamage) {
   EXPECT_EQ(reader.report().problems.at(0).line, 4);
 }
 
+TEST(RinexObservation, RefusesTimesBeforeThatOfGpsBegan) {
+  auto reader =
+      Open(GpsFile("> 1980 01 01 00 00  0.0000000  0  0\n"
+                   "> 1980 01 05 23 59 59.9999999  0  0\n"
+                   "> 1980 01 06 00 00  1.0000000  0  0\n"));
+  const auto epochs = AllEpochs(&reader);
+  ASSERT_EQ(epochs.size(), 1u);
+  EXPECT_EQ(epochs[0].time_gps_ns, kSecond_ns);
+  EXPECT_GE(reader.report().rows_skipped, 1);
+}
+
 TEST(RinexObservation, PassesOnTimeRunningBackwards) {
   auto reader =
       Open(GpsFile("> 2020 01 01 00 00  5.0000000  0  0\n"
