@@ -2,7 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <cmath>
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <string_view>
@@ -35,9 +35,7 @@ constexpr double kFarthestFromCentre_m = 6.5e6;
 void CheckGroundPoint(const double (&point)[3], const char* field, Check* check) {
   check->Point(point, field);
   const double radius_m = Eigen::Map<const Eigen::Vector3d>(point).norm();
-  check->True(!std::isfinite(radius_m) ||
-                  (radius_m > kNearestToCentre_m && radius_m < kFarthestFromCentre_m),
-              field,
+  check->True(radius_m > kNearestToCentre_m && radius_m < kFarthestFromCentre_m, field,
               "is not a place on the earth; local coordinates become ECEF by "
               "lodemark_ecef_from_enu");
 }
@@ -103,7 +101,7 @@ lodemark_status ReadLens(const lodemark_lens* lens, const char* name, std::optio
   Result<Lens> made = Lens::Create(parameters);
   if (!made) {
     std::string_view reason = made.error().message;
-    if (reason.starts_with("lens: ")) reason.remove_prefix(6);
+    reason.remove_prefix(std::min(reason.size(), std::string_view("lens: ").size()));
     return Fail(LODEMARK_ERROR_INVALID_ARGUMENT, "%s: %.*s", name, static_cast<int>(reason.size()),
                 reason.data());
   }

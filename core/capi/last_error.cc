@@ -28,10 +28,9 @@ lodemark_status StatusOf(ErrorCode code) {
       return LODEMARK_ERROR_BAD_DATA;
     case ErrorCode::kOutOfMemory:
       return LODEMARK_ERROR_OUT_OF_MEMORY;
-    case ErrorCode::kInternal:
-      break;
+    default:
+      return LODEMARK_ERROR_INTERNAL;
   }
-  return LODEMARK_ERROR_INTERNAL;
 }
 
 }  // namespace

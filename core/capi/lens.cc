@@ -209,8 +209,7 @@ lodemark_status lodemark_undistortion_apply(const lodemark_undistortion* undisto
     const std::size_t out_bytes = static_cast<std::size_t>(out_stride_bytes) *
                                       static_cast<std::size_t>(target.height_px - 1) +
                                   static_cast<std::size_t>(target.width_px);
-    const Status applied = undistortion->engine.Apply(
-        image, {out, out_bytes}, static_cast<std::ptrdiff_t>(out_stride_bytes));
-    return applied ? LODEMARK_OK : Fail(applied.error());
+    return StatusOf(undistortion->engine.Apply(image, {out, out_bytes},
+                                               static_cast<std::ptrdiff_t>(out_stride_bytes)));
   });
 }

@@ -180,7 +180,8 @@ lodemark_status lodemark_log_open(const char* path, lodemark_log** log) {
       *log = new lodemark_log(std::move(reader).value());
       return lodemark_status{LODEMARK_OK};
     };
-    return BeginsLikeUbx(path) ? take(UbxReader::Open(path)) : take(GnssLoggerReader::Open(path));
+    if (BeginsLikeUbx(path)) return take(UbxReader::Open(path));
+    return take(GnssLoggerReader::Open(path));
   });
 }
 

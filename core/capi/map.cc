@@ -179,15 +179,13 @@ lodemark_status lodemark_map_locate(
       const VisualRanges ranges =
           VisualRangesFrom(found->pose, SightsFrom(found->matches), *question.lens);
       const std::vector<lodemark_sight_residual> fared = SightResiduals(found->pose, ranges);
-      status = WriteList<lodemark_sight_residual>(
+      WriteList<lodemark_sight_residual>(
           std::min(listed, fared.size()), [&](std::size_t i) { return fared[i]; }, residuals,
           capacity, count);
-      if (status != LODEMARK_OK) return status;
     }
-    status = WriteList<lodemark_sight>(
+    WriteList<lodemark_sight>(
         listed, [&](std::size_t i) { return ToC(found->matches[i], map->frame); }, out, capacity,
         count);
-    if (status != LODEMARK_OK) return status;
     return HasPose(found->pose.verdict) ? LODEMARK_OK : LODEMARK_NO_POSITION;
   });
 }

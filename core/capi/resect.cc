@@ -76,13 +76,12 @@ lodemark_status lodemark_pose_resect(const lodemark_lens* lens, const lodemark_s
     if (residuals != nullptr) {
       const std::vector<lodemark_sight_residual> fared = SightResiduals(found, ranges);
       std::int32_t written = 0;
-      status = WriteList<lodemark_sight_residual>(
+      WriteList<lodemark_sight_residual>(
           fared.size(), [&](std::size_t i) { return fared[i]; }, residuals, count, &written);
     }
     if (range_covariance_m2 != nullptr) {
       WriteRangeCovariance(ranges, framed.sights.size(), range_covariance_m2);
     }
-    if (status != LODEMARK_OK) return status;
     return HasPose(found.verdict) ? LODEMARK_OK : LODEMARK_NO_POSITION;
   });
 }

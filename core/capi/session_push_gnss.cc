@@ -156,7 +156,6 @@ lodemark_status lodemark_session_push_gnss(lodemark_session* session, int64_t ti
       return Translate(from, where, &epoch.measurements[i]);
     });
     if (status != LODEMARK_OK) return status;
-    const Status pushed = session->engine->PushAndroidEpoch(time_ns, epoch);
-    return pushed ? LODEMARK_OK : Fail(pushed.error());
+    return StatusOf(session->engine->PushAndroidEpoch(time_ns, epoch));
   });
 }

@@ -72,10 +72,8 @@ lodemark_status ReadFrame(const lodemark_frame* frame, CameraFrame* out) {
 lodemark_status lodemark_session_use_map(lodemark_session* session, lodemark_map* map) {
   using namespace lodemark;
   if (session == nullptr) return Fail(LODEMARK_ERROR_INVALID_ARGUMENT, "session is NULL");
-  return Guard([&] {
-    const Status used = session->engine->UseMap(map == nullptr ? nullptr : map->map.get());
-    return used ? LODEMARK_OK : Fail(used.error());
-  });
+  return Guard(
+      [&] { return StatusOf(session->engine->UseMap(map == nullptr ? nullptr : map->map.get())); });
 }
 
 lodemark_status lodemark_session_push_image(lodemark_session* session, const lodemark_frame* frame,
@@ -99,7 +97,6 @@ lodemark_status lodemark_session_push_image(lodemark_session* session, const lod
                   "stride_bytes is less than the width of the lens's image, or absurd");
     }
     read.image = {pixels, size.width_px, size.height_px, static_cast<std::ptrdiff_t>(stride_bytes)};
-    const Status pushed = session->engine->PushFrame(read);
-    return pushed ? LODEMARK_OK : Fail(pushed.error());
+    return StatusOf(session->engine->PushFrame(read));
   });
 }

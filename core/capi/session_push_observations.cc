@@ -126,7 +126,6 @@ lodemark_status lodemark_session_push_observations(lodemark_session* session, in
       return Translate(from, where, &to.signals[i]);
     });
     if (status != LODEMARK_OK) return status;
-    const Status pushed = session->engine->PushObservationEpoch(time_ns, to);
-    return pushed ? LODEMARK_OK : Fail(pushed.error());
+    return StatusOf(session->engine->PushObservationEpoch(time_ns, to));
   });
 }

@@ -52,12 +52,11 @@ lodemark_status lodemark_session_push_navigation(lodemark_session* session, cons
                                               {static_cast<const char*>(bytes), byte_count});
     ReadReport read;
     const auto take = [&](const NavigationRecord& record) {
-      const Status pushed = session->engine->PushNavigation(record);
-      if (!pushed) read.Skip(lines.line_number(), 0, pushed.error().message);
+      (void)session->engine->PushNavigation(record);
     };
     const Status done = ReadRinexNavigation(&lines, take, &read);
     Write(read, report);
-    return done ? LODEMARK_OK : Fail(done.error());
+    return StatusOf(done);
   });
 }
 
@@ -74,8 +73,7 @@ lodemark_status lodemark_session_push_precise_orbits(lodemark_session* session, 
     const Result<PreciseOrbits> orbits = ReadSp3(&lines, &read);
     Write(read, report);
     if (!orbits) return Fail(orbits.error());
-    const Status pushed = session->engine->PushPreciseOrbits(*orbits);
-    return pushed ? LODEMARK_OK : Fail(pushed.error());
+    return StatusOf(session->engine->PushPreciseOrbits(*orbits));
   });
 }
 
@@ -96,8 +94,7 @@ lodemark_status lodemark_session_push_broadcast(lodemark_session* session,
     if (byte_count == 0 || byte_count > kLongestMessage) {
       return Fail(LODEMARK_ERROR_INVALID_ARGUMENT, "byte_count is that of no message");
     }
-    const Status pushed = session->engine->PushNavigationMessage(
-        stated.type, stated.svid, stated.message_id, stated.submessage_id, {bytes, byte_count});
-    return pushed ? LODEMARK_OK : Fail(pushed.error());
+    return StatusOf(session->engine->PushNavigationMessage(
+        stated.type, stated.svid, stated.message_id, stated.submessage_id, {bytes, byte_count}));
   });
 }

@@ -19,21 +19,15 @@ static_assert(LODEMARK_CLOCK_GROUPS <= kMaxClockGroups);
 
 constexpr double kSmallestSigma_m = 1e-6;
 
-std::int32_t ToOutcome(PointSolutionStatus status) {
-  switch (status) {
-    case PointSolutionStatus::kGood:
-      return LODEMARK_OUTCOME_FIX;
-    case PointSolutionStatus::kTooFew:
-      return LODEMARK_OUTCOME_TOO_FEW;
-    case PointSolutionStatus::kInconsistent:
-      return LODEMARK_OUTCOME_INCONSISTENT;
-    case PointSolutionStatus::kAmbiguous:
-      return LODEMARK_OUTCOME_AMBIGUOUS;
-    case PointSolutionStatus::kNotConverged:
-      break;
-  }
-  return LODEMARK_OUTCOME_NOT_CONVERGED;
-}
+// By PointSolutionStatus.
+constexpr std::int32_t kOutcomes[] = {LODEMARK_OUTCOME_FIX, LODEMARK_OUTCOME_TOO_FEW,
+                                      LODEMARK_OUTCOME_NOT_CONVERGED, LODEMARK_OUTCOME_INCONSISTENT,
+                                      LODEMARK_OUTCOME_AMBIGUOUS};
+static_assert(static_cast<int>(PointSolutionStatus::kGood) == 0);
+static_assert(static_cast<int>(PointSolutionStatus::kTooFew) == 1);
+static_assert(static_cast<int>(PointSolutionStatus::kNotConverged) == 2);
+static_assert(static_cast<int>(PointSolutionStatus::kInconsistent) == 3);
+static_assert(static_cast<int>(PointSolutionStatus::kAmbiguous) == 4);
 
 lodemark_status Translate(const lodemark_range& from, Where where, RangeObservation* to) {
   Check check(where);
@@ -69,7 +63,7 @@ lodemark_status ReadStart(const lodemark_solve_options* options,
 
 lodemark_solution ToC(const PointSolution& from) {
   lodemark_solution to = {};
-  to.outcome = ToOutcome(from.status);
+  to.outcome = kOutcomes[static_cast<std::size_t>(from.status)];
   if (from.status != PointSolutionStatus::kGood) return to;
   to.ranges_used = from.used;
   to.clocks_present = from.clock_groups;
@@ -128,11 +122,10 @@ lodemark_status lodemark_position_solve(const lodemark_range* ranges, int32_t co
     WriteStruct(ToC(solved), solution);
     if (residuals != nullptr) {
       std::int32_t written = 0;
-      status = WriteList<lodemark_range_residual>(
+      WriteList<lodemark_range_residual>(
           verdicts.size(), [&](std::size_t i) { return ToC(verdicts[i]); }, residuals, count,
           &written);
     }
-    if (status != LODEMARK_OK) return status;
     return solved.status == PointSolutionStatus::kGood ? LODEMARK_OK : LODEMARK_NO_POSITION;
   });
 }
