@@ -11,9 +11,9 @@ struct WorkingSize {
 };
 
 // The photograph's own, or smaller in its proportions: so that its longest side is what the options
-// allow, and that SIFT has 12.5 megapixels at most, in time as in memory, which is for a few hundred
-// of their rows. The size must be one that DetectFeatures takes, the options' longest side 0 or
-// more.
+// allow, and that SIFT has 12.5 megapixels at most, in time as in memory, which is for a few
+// hundred of their rows. The size must be one that DetectFeatures takes, the options' longest side
+// 0 or more.
 WorkingSize WorkingSizeOf(int width_px, int height_px, const DetectorOptions& options);
 
 }  // namespace lodemark

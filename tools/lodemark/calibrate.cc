@@ -30,6 +30,11 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostReasons = 8;
 
+// Photographs without a board, before any with one, after which something is said, and after which
+// it is of no use to search on: a search that finds nothing takes seconds.
+constexpr int kMissesToTell = 3;
+constexpr int kMissesToStop = 12;
+
 struct CalibrateOptions {
   std::vector<std::string> images;
   std::string board;
@@ -126,6 +131,55 @@ Result<std::vector<std::string>> PathsOf(const std::vector<std::string>& named) 
   return paths;
 }
 
+// What may be wrong where no board is found.
+class BoardDoubts {
+ public:
+  explicit BoardDoubts(const BoardPattern& pattern) : pattern_(pattern) {}
+
+  void NoteFound() { are_settled_ = true; }
+
+  // Tells when it is time. The photograph shows no such board.
+  void NoteMiss(const GrayImage& image) {
+    if (are_settled_) return;
+    ++misses_;
+    if (misses_ <= kMissesToTell && !pattern_.markers && !shows_smaller_) {
+      BoardPattern smaller = pattern_;
+      --smaller.columns;
+      --smaller.rows;
+      shows_smaller_ = CheckPattern(smaller).ok() && FindBoard(image, smaller).has_value();
+    }
+    if (misses_ == kMissesToTell) Tell();
+  }
+
+  bool are_final() const { return !are_settled_ && misses_ >= kMissesToStop; }
+
+ private:
+  void Tell() const {
+    const int columns = pattern_.columns;
+    const int rows = pattern_.rows;
+    PrintMessage(Format("none of the first %d photographs shows a board of %d x %d inner corners",
+                        misses_, columns, rows));
+    if (shows_smaller_) {
+      PrintMessage(Format(
+          "but one of %d x %d: --board counts the corners inside, one fewer than squares each "
+          "way; try --board %dx%d, or count anew: a larger board shows it, too",
+          columns - 1, rows - 1, columns - 1, rows - 1));
+      return;
+    }
+    PrintMessage(
+        Format("searching on; check that the board has %d x %d squares (--board counts the "
+               "corners inside, one fewer each way), is whole and sharp in the photographs, "
+               "has a white rim, and %s",
+               columns + 1, rows + 1,
+               pattern_.markers ? "markers of that dictionary" : "no markers (--charuco)"));
+  }
+
+  BoardPattern pattern_;
+  int misses_ = 0;
+  bool are_settled_ = false;
+  bool shows_smaller_ = false;
+};
+
 // The photographs with the boards found in them.
 struct Album {
   std::vector<CalibrationPhoto> photos;
@@ -137,6 +191,7 @@ struct Album {
 
 Album FindBoards(const std::vector<std::string>& paths, const BoardPattern& pattern) {
   Album album;
+  BoardDoubts doubts(pattern);
   ProgressBar progress("Finding boards", StderrIsTerminal());
   for (std::size_t i = 0; i < paths.size(); ++i) {
     progress.Update(static_cast<double>(i) / static_cast<double>(paths.size()));
@@ -144,6 +199,14 @@ Album FindBoards(const std::vector<std::string>& paths, const BoardPattern& patt
     photo.name = fs::path(paths[i]).filename().string();
     BoardView view;
     std::array<int, 2> size = {};
+    if (doubts.are_final()) {
+      photo.reason = Format("not looked at: %d before it show no board", kMissesToStop);
+      view.name = photo.name;
+      album.photos.push_back(std::move(photo));
+      album.views.push_back(std::move(view));
+      album.sizes.push_back(size);
+      continue;
+    }
     const Result<Photo> read = ReadPhoto(paths[i]);
     if (!read) {
       photo.reason = read.error().message.substr(read.error().message.find(": ") + 2);
@@ -151,11 +214,15 @@ Album FindBoards(const std::vector<std::string>& paths, const BoardPattern& patt
     } else {
       ++album.readable;
       size = {read->width_px, read->height_px};
-      const auto found = FindBoard(
-          {read->pixels.data(), read->width_px, read->height_px, read->width_px}, pattern);
+      const GrayImage image = {read->pixels.data(), read->width_px, read->height_px,
+                               read->width_px};
+      const auto found = FindBoard(image, pattern);
       if (found) {
         view = *found;
+        doubts.NoteFound();
       } else {
+        progress.Finish();
+        doubts.NoteMiss(image);
         photo.reason =
             Format("no board of %d x %d inner corners found", pattern.columns, pattern.rows);
       }
@@ -190,6 +257,12 @@ std::array<int, 2> KeepOneSize(Album* album) {
     album->views[i].corners.clear();
   }
   return size;
+}
+
+int BoardsIn(const Album& album) {
+  return static_cast<int>(
+      std::count_if(album.views.begin(), album.views.end(),
+                    [](const BoardView& view) { return !view.corners.empty(); }));
 }
 
 void PrintReasons(const Album& album) {
@@ -257,6 +330,12 @@ int RunCalibrate(const CalibrateOptions& options) {
                            : CalibrationText(*calibration, album.photos, StdoutIsTerminal()));
   FlushResults();
   for (const std::string& warning : calibration->warnings) PrintMessage("warning: " + warning);
+  if (const int boards = BoardsIn(album); 2 * boards < album.readable) {
+    PrintMessage(
+        Format("warning: only %d of %d photographs show a board of %d x %d inner corners: is "
+               "--board as it should be?",
+               boards, album.readable, pattern->columns, pattern->rows));
+  }
   if (!options.out.empty()) {
     const Result<std::string> text = CalibrationFile(*calibration, album.photos, options.out);
     if (!text) return ReportError(text.error());
