@@ -76,6 +76,8 @@ class InertialFilter {
 
   Eigen::Matrix3d PositionCovarianceEnu() const { return CovarianceEnu(0); }
   Eigen::Matrix3d VelocityCovarianceEnu() const { return CovarianceEnu(3); }
+  // Of small turns of the attitude.
+  Eigen::Matrix3d AttitudeCovarianceEnu() const { return CovarianceEnu(6); }
 
  private:
   // slope * errors + noise = residual.

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "core/fusion/motion_filter.h"
@@ -32,6 +33,10 @@ class CarriedMotion {
                std::span<const RangeChangeObservation> changes, const MotionModel& model,
                MotionVerdicts* verdicts);
   PositionStatement Place() const;
+  // How the phone is turned, where inertial sensors carry it; of the moment of the state.
+  std::optional<DeviceAttitude> AttitudeAt(std::int64_t state_ns, std::int64_t time_ns) const {
+    return inertial_.AttitudeAt(state_ns, time_ns);
+  }
   void Hear(const PositionStatement& said);
 
   // The latest time update with all that was heard since; of no use where inertial.

@@ -37,6 +37,10 @@ class EpochFilter {
   Eigen::Vector3d position_in_ecef() const { return filter_.position_in_ecef(); }
   Eigen::Vector3d velocity_in_ecef_mps() const { return filter_.velocity_in_ecef_mps(); }
   double clock_drift_mps() const { return filter_.clock_drift_mps(); }
+  // How the phone is turned at a time, where its inertial sensors carry the filter.
+  std::optional<DeviceAttitude> AttitudeAt(std::int64_t time_ns) const {
+    return filter_.AttitudeAt(time_ns_, time_ns);
+  }
   // As they are to be stated: with what no averaging takes away.
   Eigen::Matrix3d PositionCovarianceEnu() const;
   Eigen::Matrix3d VelocityCovarianceEnu() const { return filter_.VelocityCovarianceEnu(); }

@@ -5,6 +5,7 @@
 
 #include "core/geo/geodetic.h"
 #include "core/geo/gravity.h"
+#include "core/geo/rotation.h"
 #include "core/session/vehicle_axes.h"
 
 namespace lodemark {
@@ -51,6 +52,9 @@ constexpr double kWheelAxes_rad = 0.02;
 constexpr double kWheelTurnWander_radps_psqrt_s = 1e-4;
 
 constexpr double kUnsaid_mps = 1e4;
+
+// An attitude is carried on by turn rates alone for so long.
+constexpr double kLongestTurn_s = 5.0;
 
 double Seconds(std::int64_t from_ns, std::int64_t to_ns) {
   return 1e-9 * static_cast<double>(to_ns - from_ns);
@@ -228,6 +232,36 @@ void InertialCarrier::HearVehicle(std::span<const InertialSample> samples, std::
   } else if (++unlike_vehicle_ >= kUnlikeVehicle && !by_wheels_) {
     filter_.Unmount();
   }
+}
+
+std::optional<DeviceAttitude> InertialCarrier::AttitudeAt(std::int64_t state_ns,
+                                                          std::int64_t time_ns) const {
+  if (!carries() || by_wheels_) return std::nullopt;
+  const InertialState& state = filter_.state();
+  const double seconds = Seconds(state_ns, time_ns);
+  Eigen::Quaterniond ecef_from_device = state.ecef_from_sensor;
+  DeviceAttitude attitude;
+  attitude.covariance_enu_rad2 = filter_.AttitudeCovarianceEnu();
+  if (time_ns != state_ns) {
+    if (!(std::abs(seconds) < kLongestTurn_s)) return std::nullopt;
+    const std::int64_t late_ns = std::llround(1e9 * state.late_s);
+    bool complete = false;
+    const std::span<const InertialSample> samples = sensors_->Between(
+        std::min(state_ns, time_ns) + late_ns, std::max(state_ns, time_ns) + late_ns, &complete);
+    if (!complete) return std::nullopt;
+    const InertialIncrement felt = IntegrateInertial(samples, state.biases, noise());
+    const Eigen::Vector3d earth(0.0, 0.0, kEarthTurnRate_radps);
+    ecef_from_device = Turn(-seconds * earth) * ecef_from_device *
+                       (seconds > 0.0 ? felt.turn : felt.turn.conjugate());
+    const double turned_rad = noise().scale * TurnOf(felt.turn).norm();
+    attitude.covariance_enu_rad2.diagonal().array() +=
+        felt.covariance.diagonal().head<3>().maxCoeff() + turned_rad * turned_rad;
+  }
+  const Eigen::Matrix3d enu_from_ecef =
+      EnuFromEcefRotation(GeodeticFromEcef(state.position_in_ecef));
+  attitude.device_from_enu =
+      (Eigen::Quaterniond(enu_from_ecef) * ecef_from_device).conjugate().normalized();
+  return attitude;
 }
 
 void InertialCarrier::Forget() { *this = InertialCarrier(sensors_); }

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "core/fusion/inertial_filter.h"
 #include "core/fusion/motion_filter.h"
 #include "core/session/barometer.h"
+#include "core/session/device_attitude.h"
 #include "core/session/sensor_buffer.h"
 
 namespace lodemark {
@@ -34,6 +36,10 @@ class InertialCarrier {
                std::span<const RangeRateObservation> rates,
                std::span<const RangeChangeObservation> changes, Barometer* barometer,
                MotionVerdicts* verdicts);
+
+  // How the phone is turned at a time, by what was felt since the moment of the state, or until it.
+  // None where nothing carries, where it is a vehicle that does, and where samples are missing.
+  std::optional<DeviceAttitude> AttitudeAt(std::int64_t state_ns, std::int64_t time_ns) const;
 
   void Forget();
 

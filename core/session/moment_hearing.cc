@@ -8,6 +8,7 @@ namespace {
 void NoteInertial(const EpochFilter& filter, SessionEstimate* estimate) {
   if (filter.inertial() && estimate->status == EstimateStatus::kFix) {
     estimate->sources |= kSourceInertial;
+    estimate->attitude = filter.AttitudeAt(estimate->time_ns);
   }
 }
 

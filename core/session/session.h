@@ -21,6 +21,7 @@
 #include "core/gnss/precise_orbits.h"
 #include "core/map/feature_map.h"
 #include "core/resection/sights.h"
+#include "core/session/device_attitude.h"
 #include "core/session/sensor_buffer.h"
 
 namespace lodemark {
@@ -165,6 +166,8 @@ struct SessionEstimate {
   // camera axes.
   bool has_orientation = false;
   Eigen::Quaterniond camera_from_enu = Eigen::Quaterniond::Identity();
+  // Of the phone, at the same place, where its inertial sensors carry the filter.
+  std::optional<DeviceAttitude> attitude;
 };
 
 inline constexpr std::uint32_t kSourceGnss = 1;

@@ -144,7 +144,7 @@ FIELD(lodemark_broadcast_message, message_id, 12);
 FIELD(lodemark_broadcast_message, submessage_id, 16);
 FIELD(lodemark_broadcast_message, reserved, 20);
 
-SIZE(lodemark_estimate, 408);
+SIZE(lodemark_estimate, 520);
 FIELD(lodemark_estimate, struct_size, 0);
 FIELD(lodemark_estimate, present, 4);
 FIELD(lodemark_estimate, outcome, 8);
@@ -178,6 +178,9 @@ FIELD(lodemark_estimate, landmarks_seen, 384);
 FIELD(lodemark_estimate, reserved, 388);
 FIELD(lodemark_estimate, satellite_sigma_factor, 392);
 FIELD(lodemark_estimate, landmark_sigma_factor, 400);
+FIELD(lodemark_estimate, device_from_enu, 408);
+FIELD(lodemark_estimate, attitude_covariance_enu_deg2, 440);
+FIELD(lodemark_estimate, heading_accuracy_deg, 512);
 
 SIZE(lodemark_frame, 96);
 FIELD(lodemark_frame, struct_size, 0);
@@ -469,6 +472,7 @@ VALUE(LODEMARK_FRAME_HAS_GRAVITY, 0x1u);
 VALUE(LODEMARK_FRAME_HAS_HEADING, 0x2u);
 VALUE(LODEMARK_FRAME_HAS_CAMERA_FROM_DEVICE, 0x4u);
 VALUE(LODEMARK_ESTIMATE_HAS_ORIENTATION, 0x20u);
+VALUE(LODEMARK_ESTIMATE_HAS_ATTITUDE, 0x100u);
 VALUE(LODEMARK_SOURCE_VISION, 0x2u);
 VALUE(LODEMARK_PHOTO_NONE, 0);
 VALUE(LODEMARK_PHOTO_USED, 1);

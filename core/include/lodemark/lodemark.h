@@ -802,6 +802,7 @@ LODEMARK_API lodemark_status lodemark_session_queued(const lodemark_session* ses
 #define LODEMARK_ESTIMATE_HAS_ORIENTATION 0x20u
 #define LODEMARK_ESTIMATE_HAS_SATELLITE_SIGMA_FACTOR 0x40u
 #define LODEMARK_ESTIMATE_HAS_LANDMARK_SIGMA_FACTOR 0x80u
+#define LODEMARK_ESTIMATE_HAS_ATTITUDE 0x100u
 
 /* Bits of lodemark_estimate.sources. */
 #define LODEMARK_SOURCE_GNSS 0x1u
@@ -857,6 +858,11 @@ typedef struct lodemark_estimate {
    * times larger than stated their errors were taken for. */
   double satellite_sigma_factor; /* HAS_SATELLITE_SIGMA_FACTOR */
   double landmark_sigma_factor;  /* HAS_LANDMARK_SIGMA_FACTOR */
+  /* HAS_ATTITUDE: how the phone is turned, where its inertial sensors carry the filter. Turns east,
+   * north, up into the axes of the accelerometer: quaternion w x y z. */
+  double device_from_enu[4];
+  double attitude_covariance_enu_deg2[9]; /* of small turns about east, north and up */
+  double heading_accuracy_deg;            /* half-width: of the turn about up */
 } lodemark_estimate;
 
 /*

@@ -89,6 +89,12 @@ class InertialCarrierTest : public ::testing::Test {
     for (const SessionEvent& event : session->events()) events_.push_back(event.kind);
     return estimates;
   }
+  // By which turn about east, north and up the phone is held otherwise.
+  Eigen::Vector3d TurnedOff(const SessionEstimate& estimate, int epoch) const {
+    const Eigen::Quaterniond enu_from_device =
+        Eigen::Quaterniond(EnuFromEcefRotation(estimate.position)) * scene_.EcefFromSensor(epoch);
+    return TurnOf(enu_from_device * estimate.attitude->device_from_enu);
+  }
   std::ptrdiff_t Count(EventKind kind) const {
     return std::count(events_.begin(), events_.end(), kind);
   }
@@ -110,7 +116,16 @@ TEST_F(InertialCarrierTest, FollowsTheBendsWithoutSatellites) {
     ASSERT_EQ(estimate.status, EstimateStatus::kFix) << i;
     EXPECT_LT(Error(carried, i), 3.0 * estimate.accuracy_m) << i;
     EXPECT_EQ(estimate.sources, kSourceInertial) << i;
+    ASSERT_TRUE(estimate.attitude.has_value()) << i;
+    const Eigen::Vector3d off_rad = TurnedOff(estimate, i);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double sigma_rad = std::sqrt(estimate.attitude->covariance_enu_rad2(axis, axis));
+      EXPECT_LT(std::abs(off_rad[axis]), 3.0 * sigma_rad) << i;
+      EXPECT_LT(sigma_rad, 2.0 * kRadiansPerDegree) << i;
+    }
   }
+  EXPECT_FALSE(carried[5].attitude.has_value());
+  EXPECT_FALSE(alone[74].attitude.has_value());
   EXPECT_LT(Error(carried, 74), 10.0);
   EXPECT_LT(Error(carried, 74), 0.3 * Error(alone, 74));
   EXPECT_LT(carried[74].accuracy_m, 0.5 * alone[74].accuracy_m);
@@ -129,6 +144,7 @@ TEST_F(InertialCarrierTest, FollowsAVehiclesWheels) {
     const SessionEstimate& estimate = carried[static_cast<std::size_t>(i)];
     ASSERT_EQ(estimate.status, EstimateStatus::kFix) << i;
     EXPECT_EQ(estimate.sources, kSourceInertial) << i;
+    EXPECT_FALSE(estimate.attitude.has_value()) << i;  // the car's is no phone's
     EXPECT_LT(Error(carried, i), 3.0 * estimate.accuracy_m) << i;
   }
   EXPECT_LT(Error(carried, 74), 5.0);

@@ -14,6 +14,7 @@ public final class Estimate {
   private final boolean hasSatelliteSigmaFactor;
   private final boolean hasLandmarkSigmaFactor;
   private final boolean hasOrientation;
+  private final boolean hasAttitude;
   private final boolean fromSatellites;
   private final boolean fromLandmarks;
   private final boolean fromInertialSensors;
@@ -42,6 +43,9 @@ public final class Estimate {
   private final double satelliteSigmaFactor;
   private final double landmarkSigmaFactor;
   private final double[] cameraFromEnu;
+  private final double[] deviceFromEnu;
+  private final double[] attitudeCovarianceEnu;
+  private final double headingAccuracyDegrees;
   private final PhotoOutcome photo;
   private final int landmarksUsed;
   private final int landmarksSeen;
@@ -61,6 +65,7 @@ public final class Estimate {
         struct, at + Layout.Estimate.PRESENT, Values.ESTIMATE_HAS_LANDMARK_SIGMA_FACTOR);
     hasOrientation =
         Struct.hasBit(struct, at + Layout.Estimate.PRESENT, Values.ESTIMATE_HAS_ORIENTATION);
+    hasAttitude = Struct.hasBit(struct, at + Layout.Estimate.PRESENT, Values.ESTIMATE_HAS_ATTITUDE);
     fromSatellites = Struct.hasBit(struct, at + Layout.Estimate.SOURCES, Values.SOURCE_GNSS);
     fromLandmarks = Struct.hasBit(struct, at + Layout.Estimate.SOURCES, Values.SOURCE_VISION);
     fromInertialSensors =
@@ -92,6 +97,10 @@ public final class Estimate {
     satelliteSigmaFactor = struct.getDouble(at + Layout.Estimate.SATELLITE_SIGMA_FACTOR);
     landmarkSigmaFactor = struct.getDouble(at + Layout.Estimate.LANDMARK_SIGMA_FACTOR);
     cameraFromEnu = Struct.doubles(struct, at + Layout.Estimate.CAMERA_FROM_ENU, 4);
+    deviceFromEnu = Struct.doubles(struct, at + Layout.Estimate.DEVICE_FROM_ENU, 4);
+    attitudeCovarianceEnu =
+        Struct.doubles(struct, at + Layout.Estimate.ATTITUDE_COVARIANCE_ENU_DEG2, 9);
+    headingAccuracyDegrees = struct.getDouble(at + Layout.Estimate.HEADING_ACCURACY_DEG);
     photo = Enums.at(PhotoOutcome.values(), struct.getInt(at + Layout.Estimate.PHOTO));
     landmarksUsed = struct.getInt(at + Layout.Estimate.LANDMARKS_USED);
     landmarksSeen = struct.getInt(at + Layout.Estimate.LANDMARKS_SEEN);
@@ -176,6 +185,15 @@ public final class Estimate {
    */
   public boolean hasOrientation() {
     return hasOrientation;
+  }
+
+  /**
+   * Whether the attitude of the phone counts: where its inertial sensors carry the filter.
+   *
+   * @return true if it counts
+   */
+  public boolean hasAttitude() {
+    return hasAttitude;
   }
 
   /**
@@ -428,6 +446,33 @@ public final class Estimate {
    */
   public double[] getCameraFromEnu() {
     return cameraFromEnu.clone();
+  }
+
+  /**
+   * How the phone is turned: from east, north, up into the axes of its accelerometer.
+   *
+   * @return a quaternion w, x, y, z
+   */
+  public double[] getDeviceFromEnu() {
+    return deviceFromEnu.clone();
+  }
+
+  /**
+   * Covariance of small turns of the phone about east, north and up, by rows.
+   *
+   * @return nine values in square degrees
+   */
+  public double[] getAttitudeCovarianceEnu() {
+    return attitudeCovarianceEnu.clone();
+  }
+
+  /**
+   * The half-width about up that holds the true turn 68 % of the time.
+   *
+   * @return degrees
+   */
+  public double getHeadingAccuracyDegrees() {
+    return headingAccuracyDegrees;
   }
 
   /**

@@ -141,7 +141,7 @@ final class Layout {
   static final class Estimate {
     private Estimate() {}
 
-    static final int SIZE = 408;
+    static final int SIZE = 520;
     static final int PRESENT = 4;
     static final int OUTCOME = 8;
     static final int SOURCES = 12;
@@ -173,6 +173,9 @@ final class Layout {
     static final int LANDMARKS_SEEN = 384;
     static final int SATELLITE_SIGMA_FACTOR = 392;
     static final int LANDMARK_SIGMA_FACTOR = 400;
+    static final int DEVICE_FROM_ENU = 408;
+    static final int ATTITUDE_COVARIANCE_ENU_DEG2 = 440;
+    static final int HEADING_ACCURACY_DEG = 512;
   }
 
   /** lodemark_satellite. */

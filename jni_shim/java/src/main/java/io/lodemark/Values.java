@@ -71,6 +71,7 @@ final class Values {
   static final int ESTIMATE_HAS_ORIENTATION = 0x20;
   static final int ESTIMATE_HAS_SATELLITE_SIGMA_FACTOR = 0x40;
   static final int ESTIMATE_HAS_LANDMARK_SIGMA_FACTOR = 0x80;
+  static final int ESTIMATE_HAS_ATTITUDE = 0x100;
   static final int SOURCE_GNSS = 0x1;
   static final int SOURCE_VISION = 0x2;
   static final int SOURCE_INERTIAL = 0x4;
