@@ -13,23 +13,16 @@
 namespace lodemark {
 namespace {
 
-std::int32_t ToOutcome(EstimateStatus status) {
-  switch (status) {
-    case EstimateStatus::kFix:
-      return LODEMARK_OUTCOME_FIX;
-    case EstimateStatus::kNoData:
-      return LODEMARK_OUTCOME_NO_DATA;
-    case EstimateStatus::kTooFewSatellites:
-      return LODEMARK_OUTCOME_TOO_FEW;
-    case EstimateStatus::kNoEphemeris:
-      return LODEMARK_OUTCOME_NO_EPHEMERIS;
-    case EstimateStatus::kNotConverged:
-      return LODEMARK_OUTCOME_NOT_CONVERGED;
-    case EstimateStatus::kInconsistent:
-      break;
-  }
-  return LODEMARK_OUTCOME_INCONSISTENT;
-}
+// By EstimateStatus.
+constexpr std::int32_t kOutcomes[] = {
+    LODEMARK_OUTCOME_FIX,          LODEMARK_OUTCOME_NO_DATA,       LODEMARK_OUTCOME_TOO_FEW,
+    LODEMARK_OUTCOME_NO_EPHEMERIS, LODEMARK_OUTCOME_NOT_CONVERGED, LODEMARK_OUTCOME_INCONSISTENT};
+static_assert(static_cast<int>(EstimateStatus::kFix) == 0);
+static_assert(static_cast<int>(EstimateStatus::kNoData) == 1);
+static_assert(static_cast<int>(EstimateStatus::kTooFewSatellites) == 2);
+static_assert(static_cast<int>(EstimateStatus::kNoEphemeris) == 3);
+static_assert(static_cast<int>(EstimateStatus::kNotConverged) == 4);
+static_assert(static_cast<int>(EstimateStatus::kInconsistent) == 5);
 
 static_assert(LODEMARK_VERDICT_USED == static_cast<int>(SatelliteVerdict::kUsed));
 static_assert(LODEMARK_VERDICT_DOWN_WEIGHTED == static_cast<int>(SatelliteVerdict::kDownWeighted));
@@ -75,19 +68,14 @@ static_assert(LODEMARK_PHOTO_CONTRADICTED == static_cast<int>(PhotoOutcome::kCon
 static_assert(LODEMARK_SOURCE_GNSS == kSourceGnss && LODEMARK_SOURCE_VISION == kSourceVision &&
               LODEMARK_SOURCE_INERTIAL == kSourceInertial);
 
-std::int32_t ToVerdict(LandmarkVerdict verdict) {
-  switch (verdict) {
-    case LandmarkVerdict::kUsed:
-      return LODEMARK_VERDICT_USED;
-    case LandmarkVerdict::kDownWeighted:
-      return LODEMARK_VERDICT_DOWN_WEIGHTED;
-    case LandmarkVerdict::kOutlier:
-      return LODEMARK_VERDICT_OUTLIER;
-    case LandmarkVerdict::kNotUsed:
-      break;
-  }
-  return LODEMARK_VERDICT_PHOTO_NOT_USED;
-}
+// By LandmarkVerdict.
+constexpr std::int32_t kLandmarkVerdicts[] = {LODEMARK_VERDICT_USED, LODEMARK_VERDICT_DOWN_WEIGHTED,
+                                              LODEMARK_VERDICT_OUTLIER,
+                                              LODEMARK_VERDICT_PHOTO_NOT_USED};
+static_assert(static_cast<int>(LandmarkVerdict::kUsed) == 0);
+static_assert(static_cast<int>(LandmarkVerdict::kDownWeighted) == 1);
+static_assert(static_cast<int>(LandmarkVerdict::kOutlier) == 2);
+static_assert(static_cast<int>(LandmarkVerdict::kNotUsed) == 3);
 
 void Copy(const Eigen::Vector3d& from, double (&to)[3]) { std::memcpy(to, from.data(), sizeof to); }
 
@@ -96,7 +84,7 @@ void Copy(const Eigen::Matrix3d& from, double (&to)[9]) { std::memcpy(to, from.d
 
 lodemark_estimate ToC(const SessionEstimate& from) {
   lodemark_estimate to = {};
-  to.outcome = ToOutcome(from.status);
+  to.outcome = kOutcomes[static_cast<std::size_t>(from.status)];
   to.satellites_used = from.satellites_used;
   to.satellites_seen = from.satellites_seen;
   to.time_ns = from.time_ns;
@@ -174,7 +162,7 @@ lodemark_estimate ToC(const SessionEstimate& from) {
 lodemark_landmark ToC(const LandmarkStatus& from) {
   lodemark_landmark to = {};
   to.landmark_id = from.landmark_id;
-  to.verdict = ToVerdict(from.verdict);
+  to.verdict = kLandmarkVerdicts[static_cast<std::size_t>(from.verdict)];
   std::memcpy(to.pixel_px, from.pixel.data(), sizeof to.pixel_px);
   to.weight = from.weight;
   Copy(from.landmark_in_ecef, to.landmark_in_ecef_m);
