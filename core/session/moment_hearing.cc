@@ -64,9 +64,9 @@ void MomentHearing::Play(std::int64_t time_ns, const ObservationEpoch& epoch, He
 
 bool MomentHearing::HearPhoto(HeardMoment* heard) {
   Begin();
-  photos_->Level(*sensors_);
   const std::int64_t time_ns = photos_->next_time_ns();
   if (!RemembersMoments()) {
+    photos_->Hold(*sensors_, solver_->filter().AttitudeAt(time_ns));
     photos_->Look(solver_, &heard->estimate, &heard->landmarks, events_);
     return true;
   }
@@ -87,6 +87,7 @@ bool MomentHearing::HearPhoto(HeardMoment* heard) {
   moment->sighting.reset();
   Save(time_ns, 0, moment);
   present_ = recent_.Keep(place);
+  photos_->Hold(*sensors_, solver_->filter().AttitudeAt(time_ns));
   photos_->Look(solver_, &heard->estimate, &heard->landmarks, events_);
   moment->sighting = photos_->sighting();
   return true;

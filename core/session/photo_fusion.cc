@@ -8,6 +8,7 @@
 #include "core/base/units.h"
 #include "core/fusion/protection.h"
 #include "core/session/map_buildings.h"
+#include "core/session/photo_attitude.h"
 #include "core/session/stated_accuracy.h"
 
 namespace lodemark {
@@ -105,10 +106,13 @@ std::optional<PlacePrior> PhotoFusion::PredictedPlaceAt(std::int64_t time_ns) co
   return prior;
 }
 
-void PhotoFusion::Level(const SensorBuffer& sensors) {
+void PhotoFusion::Hold(const SensorBuffer& sensors, const std::optional<DeviceAttitude>& attitude) {
   CameraFrame& frame = queue_.front();
-  if (frame.gravity || !frame.camera_from_device) return;
-  frame.gravity = LevelAt(sensors, frame.time_ns, *frame.camera_from_device);
+  if (!frame.camera_from_device) return;
+  const std::optional<GravityPrior> felt =
+      LevelAt(sensors, frame.time_ns, *frame.camera_from_device);
+  if (attitude) HoldByAttitude(*attitude, felt, &frame);
+  if (!frame.gravity) frame.gravity = felt;
 }
 
 void PhotoFusion::Look(EpochSolver* solver, SessionEstimate* estimate,

@@ -44,8 +44,9 @@ class PhotoFusion {
   // null if the map has none.
   SightSource* SightsAt(std::int64_t time_ns, std::int64_t time_gps_ns, EventLog* events);
 
-  // Gives the next photograph what is up by the accelerometer, if it has nothing better.
-  void Level(const SensorBuffer& sensors);
+  // Gives the next photograph what is up and where it looks by the phone's attitude at its time, or
+  // at least what is up by the accelerometer, if it has nothing better.
+  void Hold(const SensorBuffer& sensors, const std::optional<DeviceAttitude>& attitude);
 
   // Looks the next photograph up and estimates where it was taken, with the last epoch where that
   // is near in time.

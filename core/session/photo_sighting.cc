@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/session/photo_attitude.h"
 #include "core/session/photo_position.h"
 #include "core/session/sight_lines.h"
 
@@ -62,6 +63,7 @@ Result<PhotoSighting> Sight(const FeatureMap& map, const MapFrame& map_frame,
     if (!again) return again.error();
     if (has_pose(*again)) found = std::move(again);
   }
+  DropContradictedHeading(found->pose, &sighting.attitude);
   sighting.pose = std::move(found->pose);
   sighting.matches = std::move(found->matches);
   return sighting;

@@ -90,7 +90,8 @@ struct CameraFrame {
   std::optional<GravityPrior> gravity;
   std::optional<double> heading_rad;  // of the optical axis, clockwise from north
   double heading_sigma_rad = 0.0;
-  // Turns the accelerometer's axes into the camera's: without gravity, its samples tell it.
+  // Turns the accelerometer's axes into the camera's: without gravity, its samples tell it, and
+  // without a heading the filter that they carry.
   std::optional<Eigen::Quaterniond> camera_from_device;
 };
 

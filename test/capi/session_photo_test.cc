@@ -145,6 +145,29 @@ TEST_F(SessionPhoto, APhotographAloneGivesAPosition) {
   EXPECT_NEAR(std::abs(estimate_.camera_from_enu[1]), half, 1e-3);
 }
 
+// A compass beside a car, or a filter that has its heading wrong.
+TEST_F(SessionPhoto, AWrongHeadingLosesNoRightPhotograph) {
+  ASSERT_EQ(Epoch(kStart_ns, 24), LODEMARK_OK);
+  for (const double heading_deg : {20.0, 90.0, 180.0}) {
+    lodemark_frame frame = Sized<lodemark_frame>();
+    frame.time_ns = estimate_.time_ns + kSecond / 4;
+    frame.present = LODEMARK_FRAME_HAS_HEADING;
+    frame.heading_deg = heading_deg;
+    frame.heading_sigma_deg = 3.0;
+    ASSERT_EQ(lodemark_session_push_image(session_, &frame, &scene_->lens, scene_->photo.data(),
+                                          scene_->lens.width_px),
+              LODEMARK_OK);
+    ASSERT_EQ(Process(), LODEMARK_OK) << heading_deg;
+    EXPECT_EQ(estimate_.photo, LODEMARK_PHOTO_USED) << heading_deg;
+    EXPECT_LT(Error(), 0.2) << heading_deg;
+    // It looks north.
+    const double* q = estimate_.camera_from_enu;
+    EXPECT_NEAR(std::atan2(2.0 * (q[1] * q[3] - q[0] * q[2]), 2.0 * (q[2] * q[3] + q[0] * q[1])),
+                0.0, 0.01)
+        << heading_deg;
+  }
+}
+
 // The first words of the project: neither alone would do.
 TEST_F(SessionPhoto, TwoSatellitesAndAPhotographGiveAPositionAndAClock) {
   ASSERT_EQ(Epoch(kStart_ns, 2), LODEMARK_NO_POSITION);

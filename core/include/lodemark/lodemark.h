@@ -730,8 +730,9 @@ typedef struct lodemark_frame {
   double heading_deg; /* HAS_HEADING: of the optical axis, clockwise from north */
   double heading_sigma_deg;
   /* HAS_CAMERA_FROM_DEVICE: turns axes of the accelerometer into those of the camera, quaternion
-   * w x y z. Without HAS_GRAVITY, samples pushed around the exposure then tell what is up. Of a
-   * phone's back camera: 0, cos(a / 2), -sin(a / 2), 0 with a Android's SENSOR_ORIENTATION. */
+   * w x y z. Without HAS_GRAVITY, samples pushed around the exposure then tell what is up; where
+   * inertial sensors carry a filter, they tell the heading, too, without HAS_HEADING. Of a phone's
+   * back camera: 0, cos(a / 2), -sin(a / 2), 0 with a Android's SENSOR_ORIENTATION. */
   double camera_from_device[4];
 } lodemark_frame;
 
