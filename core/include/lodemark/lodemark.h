@@ -1001,12 +1001,12 @@ LODEMARK_API void lodemark_log_close(lodemark_log* log);
 
 /*
  * Pushes the next epoch of the log, and first the broadcast messages before it and what a phone's
- * accelerometer, gyroscope and barometer measured until 60 ms after it, so process each epoch before
- * the next. A session based on time since boot takes the time from the clock's elapsed realtime, or
- * where the log lacks it from the receiver's hardware clock (u-blox: its GPS time); samples have a
- * time where an epoch tells both it and GPS time. LODEMARK_END_OF_LOG after the last epoch. After
- * LODEMARK_ERROR_QUEUE_FULL the same epoch comes again, after any other refusal the next one.
- * LODEMARK_ERROR_BAD_DATA at the end of a file that held no epoch, or that is cut short.
+ * accelerometer, gyroscope and barometer measured until 60 ms after it, so process each epoch
+ * before the next. A session based on time since boot takes the time from the clock's elapsed
+ * realtime, or where the log lacks it from the receiver's hardware clock (u-blox: its GPS time);
+ * samples have a time where an epoch tells both it and GPS time. LODEMARK_END_OF_LOG after the last
+ * epoch. After LODEMARK_ERROR_QUEUE_FULL the same epoch comes again, after any other refusal the
+ * next one. LODEMARK_ERROR_BAD_DATA at the end of a file that held no epoch, or that is cut short.
  */
 LODEMARK_API lodemark_status lodemark_log_push_next(lodemark_log* log, lodemark_session* session);
 
