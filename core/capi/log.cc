@@ -97,7 +97,7 @@ void PushSamples(const AndroidClock& clock, lodemark_log* log, lodemark_session*
 }
 
 lodemark_status AfterPush(lodemark_log* log, const Status& pushed) {
-  log->epoch_waits = !pushed && pushed.error().code == ErrorCode::kQueueFull;
+  log->epoch_waits = !pushed;  // for the queue was full
   return StatusOf(pushed);
 }
 
@@ -123,7 +123,6 @@ lodemark_status PushEpoch(lodemark_log* log, lodemark_session* handle) {
 }
 
 void Keep(LoggedNavigationMessage message, lodemark_log* log) {
-  if (message.bytes.empty()) return;
   if (log->messages.size() == kMostWaitingMessages) log->messages.pop_front();
   log->messages.push_back(std::move(message));
 }

@@ -10,9 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "core/capi/eyes.h"
 #include "core/capi/last_error.h"
 #include "lodemark/lodemark.h"
 #include "test/capi/constellation.h"
+#include "test/capi/photo_scene.h"
 
 namespace lodemark::test {
 namespace {
@@ -261,6 +263,91 @@ TEST(Log, PassesMessagesWithoutBytesAndEpochsWithoutTheTimeSinceBoot) {
   EXPECT_EQ(lodemark_log_push_next(log, session), LODEMARK_END_OF_LOG);
   lodemark_log_close(log);
   lodemark_session_close(session);
+  std::remove(path.c_str());
+}
+
+// The heading of a camera whose axis is a plumb line is that of the image's upper edge.
+TEST(Pose, LookingStraightDownHasAHeadingToo) {
+  const EnuFrame frame({0.84, 0.29, 180.0});
+  ResectedPose found;
+  found.verdict = PoseVerdict::kWeak;
+  EXPECT_TRUE(HasPose(found.verdict));
+  EXPECT_FALSE(HasPose(PoseVerdict::kNotHere));
+  for (const double up : {1.0, -1.0}) {
+    Eigen::Matrix3d camera_from_enu;  // x east, y away from the upper edge, which lies north
+    camera_from_enu << 1.0, 0.0, 0.0, 0.0, up, 0.0, 0.0, 0.0, up;
+    const Eigen::Quaterniond turn(camera_from_enu);
+    for (const double sign : {1.0, -1.0}) {
+      const Eigen::Quaterniond signed_turn(sign * turn.coeffs());
+      found.camera_from_enu = Rigid3(signed_turn, Eigen::Vector3d::Zero());
+      const lodemark_pose pose = ToC(found, LensParameters(), frame);
+      EXPECT_NEAR(std::abs(pose.pitch_deg), 90.0, 1e-4);
+      EXPECT_GE(pose.camera_from_enu[0], 0.0);
+      EXPECT_NEAR(std::remainder(pose.heading_deg, 180.0), 0.0, 1e-3);
+    }
+  }
+}
+
+TEST(Pose, IsNotSoughtWithoutALens) {
+  auto pose = Sized<lodemark_pose>();
+  EXPECT_EQ(lodemark_pose_resect(nullptr, nullptr, 0, nullptr, nullptr, &pose, nullptr, nullptr),
+            kInvalid);
+}
+
+TEST(Map, IsAskedAboutPhotographsOfPlausibleRows) {
+  const std::string path = testing::TempDir() + "corners." + std::to_string(::getpid()) + ".map";
+  const PhotoScene scene(path);
+  ASSERT_EQ(scene.problem, "");
+  lodemark_map* map = nullptr;
+  lodemark_session* session = nullptr;
+  ASSERT_EQ(lodemark_map_open(path.c_str(), &map), LODEMARK_OK);
+  auto options = Sized<lodemark_session_options>();
+  options.flags = LODEMARK_SESSION_VARIANCE_COMPONENTS;
+  options.ionosphere = LODEMARK_IONOSPHERE_NONE;
+  options.troposphere = LODEMARK_TROPOSPHERE_NONE;
+  ASSERT_EQ(lodemark_session_open(&options, &session), LODEMARK_OK);
+  ASSERT_EQ(lodemark_session_use_map(session, map), LODEMARK_OK);
+  const std::uint8_t* pixels = scene.photo.data();
+  std::int32_t count = 0;
+  auto frame = Sized<lodemark_frame>();
+  frame.time_ns = Constellation::kReference_gps_ns;
+  EXPECT_EQ(lodemark_session_push_image(session, &frame, &scene.lens, pixels, INT64_MAX), kInvalid);
+  EXPECT_EQ(
+      lodemark_map_query(map, &scene.lens, pixels, INT64_MAX, nullptr, nullptr, nullptr, 0, &count),
+      kInvalid);
+  lodemark_query_options query = {};
+  EXPECT_EQ(lodemark_map_query(map, &scene.lens, pixels, scene.lens.width_px, nullptr, &query,
+                               nullptr, 0, &count),
+            kInvalid);
+  auto pose = Sized<lodemark_pose>();
+  auto residual = Sized<lodemark_sight_residual>();
+  EXPECT_EQ(lodemark_map_locate(map, &scene.lens, pixels, scene.lens.width_px, nullptr, nullptr,
+                                nullptr, &pose, nullptr, &residual, 0, &count),
+            LODEMARK_OK)
+      << lodemark_last_error();
+  EXPECT_GT(count, 100);
+
+  // Landmarks are scaled by how they scatter.
+  const std::string orbits = Constellation::NavigationFile();
+  EXPECT_EQ(
+      lodemark_session_push_navigation(session, nullptr, orbits.data(), orbits.size(), nullptr),
+      LODEMARK_OK);
+  double place[3];
+  ASSERT_EQ(lodemark_geodetic_from_ecef(scene.camera_in_ecef_m, place), LODEMARK_OK);
+  StillPhone phone(place, 500.0);
+  phone.Measure(Constellation::kReference_gps_ns);
+  EXPECT_EQ(lodemark_session_push_image(session, &frame, &scene.lens, pixels, scene.lens.width_px),
+            LODEMARK_OK);
+  EXPECT_EQ(lodemark_session_push_gnss(session, 0, &phone.clock, phone.measurements.data(),
+                                       phone.count()),
+            LODEMARK_OK);
+  EXPECT_EQ(lodemark_session_process(session), LODEMARK_OK);
+  EXPECT_EQ(lodemark_session_process(session), LODEMARK_OK);
+  auto estimate = Sized<lodemark_estimate>();
+  EXPECT_EQ(lodemark_session_estimate(session, &estimate), LODEMARK_OK);
+  EXPECT_NE(estimate.present & LODEMARK_ESTIMATE_HAS_LANDMARK_SIGMA_FACTOR, 0u);
+  lodemark_session_close(session);
+  lodemark_map_close(map);
   std::remove(path.c_str());
 }
 

@@ -190,6 +190,20 @@ TEST(LogSensors, AreHeardOnceWhereTheQueueWasFull) {
   ExpectHeardUntil(session.get(), LODEMARK_SENSOR_GYROSCOPE, kBoot_gps_ns + 3 * kSecond_ns);
 }
 
+// No phone measures so often: the rest are left out, and the memory is bounded.
+TEST(LogSensors, AreOnlySoManyBetweenTwoEpochs) {
+  constexpr std::int64_t kMost = 20'000;
+  LogText text;
+  for (std::int64_t i = 0; i < kMost + 50; ++i) {
+    text.Sensor("Gyro", kSecond_ns + i, "0.1,0.2,0.3");
+  }
+  text.Epoch(2);
+  const Log log = text.Open();
+  const SessionHandle session = OpenSession();
+  ASSERT_EQ(lodemark_log_push_next(log.get(), session.get()), LODEMARK_OK);
+  ExpectHeardUntil(session.get(), LODEMARK_SENSOR_GYROSCOPE, kBoot_gps_ns + kSecond_ns + kMost - 1);
+}
+
 // Times that a text may state and that the interface does not take.
 TEST(LogSensors, EpochsOfAnAbsurdTimeAreRefusedAndTheNextComes) {
   LogText text;
