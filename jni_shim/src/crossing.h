@@ -18,7 +18,7 @@ T* Handle(jlong handle) {
 // The first byte of a direct buffer that holds at least size bytes; otherwise NULL, to which the
 // function that is called objects.
 inline void* Bytes(JNIEnv* env, jobject buffer, jlong size) {
-  if (buffer == nullptr || env->GetDirectBufferCapacity(buffer) < size) return nullptr;
+  if (buffer == nullptr || size < 0 || env->GetDirectBufferCapacity(buffer) < size) return nullptr;
   return env->GetDirectBufferAddress(buffer);
 }
 
