@@ -56,12 +56,13 @@ class SessionPhoto : public ::testing::Test {
     delete phone_;
   }
 
-  void Open(std::int32_t scheme) {
+  void Open(std::int32_t scheme, std::int32_t estimator = LODEMARK_ESTIMATOR_EPOCH) {
     lodemark_session_close(session_);
     lodemark_session_options options = Sized<lodemark_session_options>();
     options.ionosphere = LODEMARK_IONOSPHERE_NONE;
     options.troposphere = LODEMARK_TROPOSPHERE_NONE;
     options.scheme = scheme;
+    options.estimator = estimator;
     ASSERT_EQ(lodemark_session_open(&options, &session_), LODEMARK_OK) << lodemark_last_error();
     ASSERT_EQ(lodemark_session_use_map(session_, map_), LODEMARK_OK);
     const std::string file = Constellation::NavigationFile();
@@ -288,6 +289,37 @@ TEST_F(SessionPhoto, WhatWaitsIsTakenInTheOrderOfItsTime) {
     EXPECT_EQ(estimate_.time_ns, kStart_ns + i * kSecond);
   }
   EXPECT_EQ(lodemark_session_process(session_), LODEMARK_NOTHING_QUEUED);
+}
+
+// A filter hears it at its time, and what came after it once more; up to 3 s late.
+TEST_F(SessionPhoto, OneThatComesLateGivesWhatItWouldHaveGivenInTime) {
+  lodemark_estimate photo[3] = {};
+  lodemark_estimate after[3] = {};
+  for (const int late : {0, 2, 4}) {
+    Open(LODEMARK_SCHEME_JOINT, LODEMARK_ESTIMATOR_FILTER);
+    for (int i = 0; i < 6; ++i) {
+      if (i == 1 + late) {
+        Photo(kStart_ns + kSecond / 2);
+        photo[late / 2] = estimate_;
+      }
+      ASSERT_EQ(Epoch(kStart_ns + i * kSecond, 24), LODEMARK_OK);
+    }
+    after[late / 2] = estimate_;
+  }
+  EXPECT_EQ(photo[0].photo, LODEMARK_PHOTO_USED);
+  EXPECT_EQ(std::memcmp(&photo[0], &photo[1], sizeof photo[0]), 0);
+  EXPECT_EQ(std::memcmp(&after[0], &after[1], sizeof after[0]), 0);
+  // 3.5 s is too late.
+  EXPECT_EQ(photo[2].outcome, LODEMARK_OUTCOME_NO_DATA);
+  EXPECT_EQ(photo[2].time_ns, kStart_ns + kSecond / 2);
+  EXPECT_EQ(photo[2].photo, LODEMARK_PHOTO_NONE);
+  int told = 0;
+  for (const lodemark_event& event : Events()) {
+    if (event.kind != LODEMARK_EVENT_PHOTO_TOO_LATE) continue;
+    ++told;
+    EXPECT_NEAR(event.value, 3.5, 1e-9);
+  }
+  EXPECT_EQ(told, 1);
 }
 
 TEST_F(SessionPhoto, RefusesWhatMakesNoSense) {
