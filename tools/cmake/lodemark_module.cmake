@@ -24,10 +24,12 @@ target_include_directories(lodemark_flags INTERFACE ${CMAKE_SOURCE_DIR}
                                                     ${CMAKE_SOURCE_DIR}/core/include)
 
 # One folder, one target: lodemark_module(gnss SOURCES a.cc b.cc DEPENDS base geo LINKS Eigen3::Eigen)
-# makes the static library lodemark_gnss. PRIVATE_LINKS are libraries that stay in the .cc files.
+# makes the static library lodemark_gnss. PRIVATE_LINKS are libraries that stay in the .cc files;
+# SMALL are those of the sources where nothing is slow, so that a release makes them small.
 function(lodemark_module name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;SMALL;DEPENDS;LINKS;PRIVATE_LINKS" ${ARGN})
   if(ARG_SOURCES)
+    set_source_files_properties(${ARG_SMALL} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-Os>)
     add_library(lodemark_${name} STATIC ${ARG_SOURCES})
     set(scope PUBLIC)
     target_link_libraries(lodemark_${name} PRIVATE ${ARG_PRIVATE_LINKS})
