@@ -64,14 +64,13 @@ std::vector<float> SiftDescription::Turns(const SiftOctave& octave, const SiftEx
     const float* const row = octave.row(extremum.layer, y);
     const float* const below = octave.row(extremum.layer, y + 1);
     const float row_weight = gaussian[static_cast<std::size_t>(y - extremum.y + radius)];
-    const float* const column_weights = gaussian.data() + (radius - extremum.x);
     float* const along_x = gradients_.along_x.data() + k;
     float* const up = gradients_.up.data() + k;
     float* const weight = gradients_.weight.data() + k;
     for (int x = left; x <= right; ++x) {
       along_x[x - left] = row[x + 1] - row[x - 1];
       up[x - left] = above[x] - below[x];
-      weight[x - left] = row_weight * column_weights[x];
+      weight[x - left] = row_weight * gaussian[static_cast<std::size_t>(x - extremum.x + radius)];
     }
     k += static_cast<std::size_t>(right - left + 1);
   }
@@ -172,9 +171,9 @@ std::array<std::uint8_t, kSiftLength> SiftDescription::Describe(const SiftOctave
     float direction = (gradients_.direction_deg[k] - counterclockwise_deg) * (kDirections / 360.0F);
     if (direction < 0.0F) direction += kDirections;
     if (direction >= kDirections) direction -= kDirections;
-    // All are above -1, so that cutting off rounds down.
-    const int row = static_cast<int>(row_bins_[k] + 1.0F);
-    const int column = static_cast<int>(column_bins_[k] + 1.0F);
+    // All are above -1, so that cutting off rounds down; the last number below kCells rounds up.
+    const int row = std::min(static_cast<int>(row_bins_[k] + 1.0F), kCells);
+    const int column = std::min(static_cast<int>(column_bins_[k] + 1.0F), kCells);
     const int bin = static_cast<int>(direction);
     const float below = row_bins_[k] + 1.0F - static_cast<float>(row);
     const float right_of = column_bins_[k] + 1.0F - static_cast<float>(column);

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "core/base/random.h"
+#include "core/vision/sift_description.h"
 
 namespace lodemark {
 namespace {
@@ -83,6 +85,37 @@ TEST(SiftOctave, BlursInStepsAsAtOnce) {
     for (const int rows_at_once : {1, 7, 64, 400}) {
       ExpectWholeLayers(height_px, rows_at_once, 1.6);
       ExpectWholeLayers(height_px, rows_at_once, 1.0);
+    }
+  }
+}
+
+// A pixel on the last number below the edge of the cells is rounded up beyond them; sanitizers see
+// what is then written where.
+TEST(SiftDescription, PixelsOnTheEdgeOfTheCellsStayWithinThem) {
+  constexpr int kHeight_px = 37;
+  std::vector<float> pixels = RandomPixels(kHeight_px);
+  SiftOctave octave(kWidth_px, kHeight_px);
+  std::copy(pixels.begin(), pixels.end(), octave.Append(kHeight_px));
+  octave.Advance();
+  SiftDescription description;
+  SiftExtremum extremum;
+  extremum.layer = 1;
+  extremum.x = kWidth_px / 2;
+  extremum.y = kHeight_px / 2;
+  for (int pixel = 10; pixel <= 17; ++pixel) {
+    // Cells are three sigmas wide, and the outermost ends two and a half of them off the middle.
+    float sigma_px = static_cast<float>(pixel) / 7.5F;
+    for (int i = 0; i < 64; ++i) sigma_px = std::nextafter(sigma_px, 0.0F);
+    for (int i = 0; i < 128; ++i) {
+      sigma_px = std::nextafter(sigma_px, 10.0F);
+      extremum.sigma_px = sigma_px;
+      for (const float turn_deg : {0.0F, 90.0F, 180.0F, 270.0F}) {
+        double square = 0.0;
+        for (const std::uint8_t value : description.Describe(octave, extremum, turn_deg)) {
+          square += static_cast<double>(value) * value;
+        }
+        ASSERT_NEAR(std::sqrt(square), 512.0, 10.0) << pixel << " " << turn_deg;
+      }
     }
   }
 }
