@@ -72,13 +72,18 @@ void PushSamples(const AndroidClock& clock, lodemark_log* log, lodemark_session*
   const std::int64_t epoch_gps_ns = clock.time_ns - clock.full_bias_ns;
   const std::int64_t until_gps_ns = epoch_gps_ns + SensorBuffer::kLongestGap_ns;
   if (log->heard_gps_ns == 0) log->heard_gps_ns = epoch_gps_ns - kBeforeFirst_ns;
-  if (until_gps_ns <= log->heard_gps_ns) return;
   std::vector<LoggedSample>& ahead = log->ahead;
+  // A time long before what was heard: that one, or this, was wrong. The file goes on from here.
+  if (until_gps_ns < log->heard_gps_ns - kBeforeFirst_ns) {
+    log->heard_gps_ns = epoch_gps_ns - kBeforeFirst_ns;
+    ahead.clear();
+  }
   for (LoggedSample sample; log->samples.Next(&sample);) {
     if (sample.time_gps_ns > log->heard_gps_ns && ahead.size() < kMostAhead) {
       ahead.push_back(sample);
     }
   }
+  if (until_gps_ns <= log->heard_gps_ns) return;
   std::stable_sort(ahead.begin(), ahead.end(), [](const LoggedSample& a, const LoggedSample& b) {
     return a.time_gps_ns < b.time_gps_ns;
   });
@@ -97,7 +102,7 @@ void PushSamples(const AndroidClock& clock, lodemark_log* log, lodemark_session*
 }
 
 lodemark_status AfterPush(lodemark_log* log, const Status& pushed) {
-  log->epoch_waits = !pushed;  // for the queue was full
+  log->epoch_waits = !pushed && pushed.error().code == ErrorCode::kQueueFull;
   return StatusOf(pushed);
 }
 

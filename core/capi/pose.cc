@@ -27,8 +27,8 @@ void WriteQuaternion(const Eigen::Quaterniond& rotation, double (&out)[4]) {
   out[3] = sign * rotation.z();
 }
 
-// Heading, pitch and roll of a camera; with the axis straight up or down the heading is that of the
-// image's upper edge and the roll is zero.
+// Heading, pitch and roll of a camera; with the axis straight up or down the heading is the one
+// that it had before it was tilted and the roll is zero.
 void WriteAngles(const Eigen::Matrix3d& camera_from_enu, lodemark_pose* to) {
   const Eigen::Vector3d axis = camera_from_enu.row(2);
   const Eigen::Vector3d right = camera_from_enu.row(0);

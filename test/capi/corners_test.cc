@@ -266,7 +266,7 @@ TEST(Log, PassesMessagesWithoutBytesAndEpochsWithoutTheTimeSinceBoot) {
   std::remove(path.c_str());
 }
 
-// The heading of a camera whose axis is a plumb line is that of the image's upper edge.
+// The heading of a camera whose axis is a plumb line is the one that it had before it was tilted.
 TEST(Pose, LookingStraightDownHasAHeadingToo) {
   const EnuFrame frame({0.84, 0.29, 180.0});
   ResectedPose found;
@@ -274,7 +274,8 @@ TEST(Pose, LookingStraightDownHasAHeadingToo) {
   EXPECT_TRUE(HasPose(found.verdict));
   EXPECT_FALSE(HasPose(PoseVerdict::kNotHere));
   for (const double up : {1.0, -1.0}) {
-    Eigen::Matrix3d camera_from_enu;  // x east, y away from the upper edge, which lies north
+    // x east; the axis went up, or down, from the north.
+    Eigen::Matrix3d camera_from_enu;
     camera_from_enu << 1.0, 0.0, 0.0, 0.0, up, 0.0, 0.0, 0.0, up;
     const Eigen::Quaterniond turn(camera_from_enu);
     for (const double sign : {1.0, -1.0}) {
@@ -283,7 +284,7 @@ TEST(Pose, LookingStraightDownHasAHeadingToo) {
       const lodemark_pose pose = ToC(found, LensParameters(), frame);
       EXPECT_NEAR(std::abs(pose.pitch_deg), 90.0, 1e-4);
       EXPECT_GE(pose.camera_from_enu[0], 0.0);
-      EXPECT_NEAR(std::remainder(pose.heading_deg, 180.0), 0.0, 1e-3);
+      EXPECT_NEAR(std::abs(std::remainder(pose.heading_deg, 360.0)), 0.0, 1e-3);
     }
   }
 }

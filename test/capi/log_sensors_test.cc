@@ -39,9 +39,11 @@ class LogText {
   ~LogText() { std::remove(path_.c_str()); }
 
   void Epoch(std::int64_t seconds, bool knows_gps_time = true) {
-    const std::string time = std::to_string(seconds * kSecond_ns);
-    text_ += "Raw," + time + ',' + (knows_gps_time ? std::to_string(-kBoot_gps_ns) : "") +
-             ",5,16431,1000000,1," + time + '\n';
+    Raw(seconds, knows_gps_time ? std::to_string(-kBoot_gps_ns) : "");
+  }
+  // Which says that it is of the next day.
+  void StrayEpoch(std::int64_t seconds) {
+    Raw(seconds, std::to_string(-kBoot_gps_ns - 86'400 * kSecond_ns));
   }
   void Sensor(const char* word, std::int64_t since_boot_ns, const char* values) {
     text_ += std::string(word) + ",0," + std::to_string(since_boot_ns) + ',' + values + '\n';
@@ -55,6 +57,11 @@ class LogText {
   }
 
  private:
+  void Raw(std::int64_t seconds, const std::string& full_bias_ns) {
+    const std::string time = std::to_string(seconds * kSecond_ns);
+    text_ += "Raw," + time + ',' + full_bias_ns + ",5,16431,1000000,1," + time + '\n';
+  }
+
   std::string path_ = testing::TempDir() + "log_sensors." + std::to_string(::getpid()) + ".txt";
   std::string text_;
 };
@@ -156,6 +163,25 @@ TEST(LogSensors, ThatComeTooLateAreLeftOutWithoutAWord) {
   EXPECT_EQ(lodemark_session_events(session.get(), events.data(), 16, &count), LODEMARK_OK);
   for (int i = 0; i < count; ++i) EXPECT_NE(events[i].kind, LODEMARK_EVENT_SENSOR_DROPPED);
   ExpectHeardUntil(session.get(), LODEMARK_SENSOR_ACCELEROMETER, kBoot_gps_ns + 2 * kSecond_ns);
+}
+
+TEST(LogSensors, AreHeardAgainAfterAnEpochOfAnotherDay) {
+  LogText text;
+  for (int i = 1; i <= 12; ++i) {
+    text.Sensor("Accel", i * kSecond_ns, "0.1,0.2,9.8");
+    if (i == 4) {
+      text.StrayEpoch(i);
+    } else {
+      text.Epoch(i);
+    }
+  }
+  const Log log = text.Open();
+  const SessionHandle session = OpenSession();
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_EQ(lodemark_log_push_next(log.get(), session.get()), LODEMARK_OK);
+    EXPECT_EQ(lodemark_session_process(session.get()), LODEMARK_NO_POSITION);
+  }
+  ExpectHeardUntil(session.get(), LODEMARK_SENSOR_ACCELEROMETER, kBoot_gps_ns + 12 * kSecond_ns);
 }
 
 TEST(LogSensors, OfNumbersThatNoneGivesAreLeftOut) {
