@@ -31,9 +31,11 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostReasons = 8;
 
 // Photographs without a board, before any with one, after which something is said, and after which
-// it is of no use to search on: a search that finds nothing takes seconds.
+// only so many of the others are looked at, spread over all: a search that finds nothing takes
+// seconds.
 constexpr int kMissesToTell = 3;
 constexpr int kMissesToStop = 12;
+constexpr std::size_t kLastLooks = 4;
 
 struct CalibrateOptions {
   std::vector<std::string> images;
@@ -189,9 +191,29 @@ struct Album {
   std::string first_problem;
 };
 
+// Whether any of a few photographs from here to the end shows the board; else tells that the search
+// ends.
+bool ShowsBoardLater(const std::vector<std::string>& paths, std::size_t from,
+                     const BoardPattern& pattern) {
+  const std::size_t rest = paths.size() - from;
+  const std::size_t step = (rest + kLastLooks - 1) / kLastLooks;
+  std::size_t looked_at = 0;
+  for (std::size_t i = from + step - 1; i < paths.size(); i += step) {
+    ++looked_at;
+    const Result<Photo> read = ReadPhoto(paths[i]);
+    if (!read) continue;
+    const GrayImage image = {read->pixels.data(), read->width_px, read->height_px, read->width_px};
+    if (FindBoard(image, pattern)) return true;
+  }
+  PrintMessage(Format("stopped: none of %zu photographs shows the board, %zu were not looked at",
+                      from + looked_at, rest - looked_at));
+  return false;
+}
+
 Album FindBoards(const std::vector<std::string>& paths, const BoardPattern& pattern) {
   Album album;
   BoardDoubts doubts(pattern);
+  bool stopped = false;
   ProgressBar progress("Finding boards", StderrIsTerminal());
   for (std::size_t i = 0; i < paths.size(); ++i) {
     progress.Update(static_cast<double>(i) / static_cast<double>(paths.size()));
@@ -199,8 +221,13 @@ Album FindBoards(const std::vector<std::string>& paths, const BoardPattern& patt
     photo.name = fs::path(paths[i]).filename().string();
     BoardView view;
     std::array<int, 2> size = {};
-    if (doubts.are_final()) {
-      photo.reason = Format("not looked at: %d before it show no board", kMissesToStop);
+    if (doubts.are_final() && !stopped) {
+      progress.Finish();
+      stopped = !ShowsBoardLater(paths, i, pattern);
+      if (!stopped) doubts.NoteFound();
+    }
+    if (stopped) {
+      photo.reason = Format("left out, for %zu others show no board", i);
       view.name = photo.name;
       album.photos.push_back(std::move(photo));
       album.views.push_back(std::move(view));
@@ -310,6 +337,7 @@ int RunCalibrate(const CalibrateOptions& options) {
     PrintMessage(album.first_problem);
     return kExitInput;
   }
+  const int boards = BoardsIn(album);
   const std::array<int, 2> size = KeepOneSize(&album);
 
   CalibrationOptions calibrate;
@@ -330,7 +358,7 @@ int RunCalibrate(const CalibrateOptions& options) {
                            : CalibrationText(*calibration, album.photos, StdoutIsTerminal()));
   FlushResults();
   for (const std::string& warning : calibration->warnings) PrintMessage("warning: " + warning);
-  if (const int boards = BoardsIn(album); 2 * boards < album.readable) {
+  if (2 * boards < album.readable) {
     PrintMessage(
         Format("warning: only %d of %d photographs show a board of %d x %d inner corners: is "
                "--board as it should be?",
