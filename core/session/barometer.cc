@@ -22,7 +22,7 @@ constexpr double kLowest_m = -1'000.0;
 // another unit.
 constexpr double kLikeStandard = 0.12;
 
-// The temperature of the air is another by some 15 K, and stays so while one climbs on.
+// The temperature of the air is another by some 15 K, 5 %, and stays so while one climbs on.
 constexpr double kScaleSigma = 0.1;
 
 // What drifts: weather, doors, wind; and the wind of driving, by the window and the vents.
@@ -37,6 +37,8 @@ constexpr std::int64_t kOldest_ns = 3 * kSecond_ns / 2;
 constexpr double kSmallestNoise_m = 0.05;  // of a sample
 constexpr double kSingleNoise_m = 0.15;
 constexpr double kClimbSigma_mps = 0.5;
+// The last sample is so many times older at most than samples are apart.
+constexpr double kSparseLag = 1.5;
 // Where samples scatter more than this about their line, something else happens than a climb.
 constexpr double kUnclear_m = 0.6;
 
@@ -95,6 +97,10 @@ std::optional<Level> LevelAt(const SensorBuffer& sensors, std::int64_t time_ns, 
       sensors.PressuresBetween(time_ns - kLine_ns, time_ns);
   const double lag_s = Seconds(near.back().time_ns, time_ns);
   if (line.size() < kFewestForLine || lag_s > 0.5e-9 * static_cast<double>(kLine_ns)) {
+    // Of a sensor that gives more, those of now have not come yet.
+    const double apart_s =
+        near.size() < 2 ? lag_s : Seconds(near[near.size() - 2].time_ns, near.back().time_ns);
+    if (lag_s > kSparseLag * apart_s) return std::nullopt;
     return Level{height(near.back()), kSingleNoise_m * kSingleNoise_m +
                                           lag_s * lag_s * kClimbSigma_mps * kClimbSigma_mps};
   }
@@ -173,12 +179,16 @@ std::optional<Rise> Barometer::RiseBetween(std::int64_t from_ns, std::int64_t to
     time_ns = next_ns;
   }
   if (!before || unseen_s > kMostUnseen * seconds) return std::nullopt;
-  variance_m2 += apart * before->variance_m2 + std::pow(kScaleSigma * rise_m, 2) +
+  // What a whole climb is wrong by, less what its beginning was.
+  const double climbed_m = climbed_m_ * rise_m > 0.0 ? climbed_m_ : 0.0;
+  variance_m2 += apart * before->variance_m2 +
+                 kScaleSigma * kScaleSigma * (2.0 * climbed_m + rise_m) * rise_m +
                  std::pow(kUnseenRise_mps * unseen_s, 2);
   return Rise{rise_m, std::sqrt(std::max(1.0, doubt_) * variance_m2)};
 }
 
-void Barometer::Learn(double seconds, double square) {
+void Barometer::Learn(double seconds, double rise_m, double square) {
+  climbed_m_ = climbed_m_ * rise_m > 0.0 ? climbed_m_ + rise_m : rise_m;
   if (!(square >= 0.0)) return;
   doubt_ +=
       (1.0 - std::exp(-seconds / kDoubtLasts_s)) * (std::min(square, kLargestSquare) - doubt_);

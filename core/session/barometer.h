@@ -22,13 +22,14 @@ class Barometer {
   std::optional<Rise> RiseBetween(std::int64_t from_ns, std::int64_t to_ns, double height_m,
                                   double speed_mps) const;
 
-  // How far the last rise was from what else was known: the square, in its expected variance. One
-  // that errs more than it says is believed less for a while.
-  void Learn(double seconds, double square);
+  // The last rise was heard; it was so far from what else was known: the square, in its expected
+  // variance. One that errs more than it says is believed less for a while.
+  void Learn(double seconds, double rise_m, double square);
 
  private:
   const SensorBuffer* sensors_;
-  double doubt_ = 1.0;  // mean of the squares, of late
+  double doubt_ = 1.0;      // mean of the squares, of late
+  double climbed_m_ = 0.0;  // since it last went the other way
 };
 
 }  // namespace lodemark

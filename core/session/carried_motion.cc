@@ -70,7 +70,7 @@ void CarriedMotion::Advance(std::int64_t from_ns, std::int64_t to_ns,
                              motion_.velocity_in_ecef_mps().norm());
   motion_.Advance(seconds, rates, changes, model, verdicts, rise);
   if (!motion_.started()) return;
-  if (rise) barometer_.Learn(seconds, *verdicts->rise_square);
+  if (rise) barometer_.Learn(seconds, rise->rise_m, *verdicts->rise_square);
   inertial_.Note(to_ns, motion_, verdicts->rates_agree || verdicts->changes_agree);
 }
 

@@ -159,7 +159,9 @@ bool InertialCarrier::Step(std::int64_t from_ns, std::int64_t to_ns,
       barometer->RiseBetween(from_ns, to_ns, GeodeticFromEcef(before.position_in_ecef).height_m,
                              before.velocity_in_ecef_mps.norm());
   filter_.Advance(samples, rates, changes, verdicts, rise);
-  if (rise) barometer->Learn(Seconds(from_ns, to_ns), *verdicts->rise_square);
+  if (rise) {
+    barometer->Learn(Seconds(from_ns, to_ns), rise->rise_m, *verdicts->rise_square);
+  }
   if (!filter_.started()) return true;
   HearRest(samples, Seconds(from_ns, to_ns));
   HearVehicle(samples, from_ns, to_ns);

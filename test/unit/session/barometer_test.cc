@@ -135,11 +135,36 @@ TEST_F(BarometerTest, IsBelievedLessWhereItErredAndAgainLater) {
   const Air air(288.15);
   Feel([&](double s) { return air.PressureAt(100.0 + 0.2 * s); });
   const double sigma_m = Between(20.0, 21.0)->sigma_m;
-  barometer_.Learn(1.0, 60.0);
+  barometer_.Learn(1.0, 0.2, 60.0);
   EXPECT_GT(Between(20.0, 21.0)->sigma_m, 1.5 * sigma_m);
-  barometer_.Learn(1.0, std::nan(""));
-  for (int i = 0; i < 120; ++i) barometer_.Learn(1.0, 0.5);
+  barometer_.Learn(1.0, 0.2, std::nan(""));
+  for (int i = 0; i < 120; ++i) barometer_.Learn(1.0, i % 2 == 0 ? 0.2 : -0.2, 0.5);
   EXPECT_DOUBLE_EQ(Between(20.0, 21.0)->sigma_m, sigma_m);
+}
+
+// The air is as warm all the way up, so sixty rises are as wrong together as one of all.
+TEST_F(BarometerTest, OfManyRisesTheSumIsAsUnsureAsOne) {
+  const Air air(288.15);
+  Feel([&](double s) { return air.PressureAt(100.0 + 4.0 * s); }, 80.0);
+  const double whole_m = Between(15.0, 75.0)->sigma_m;
+  double squares_m2 = 0.0;
+  for (int second = 15; second < 75; ++second) {
+    const std::optional<Rise> rise = Between(second, second + 1.0);
+    ASSERT_TRUE(rise.has_value());
+    squares_m2 += rise->sigma_m * rise->sigma_m;
+    barometer_.Learn(1.0, rise->rise_m, 0.1);
+  }
+  EXPECT_GT(whole_m, 0.09 * 240.0);
+  EXPECT_NEAR(std::sqrt(squares_m2), whole_m, 0.1 * whole_m);
+}
+
+// Samples that come a second late tell nothing of the second that has passed.
+TEST_F(BarometerTest, SaysNothingOfASecondWhoseSamplesHaveNotCome) {
+  const Air air(288.15);
+  Feel([&](double s) { return air.PressureAt(100.0 + 0.5 * s); }, 30.0);
+  EXPECT_TRUE(Between(29.0, 30.0).has_value());
+  EXPECT_FALSE(Between(30.0, 31.0).has_value());
+  EXPECT_FALSE(Between(29.8, 30.8).has_value());
 }
 
 // Up a hill and down again, by foot, where satellites tell the height badly.
