@@ -26,9 +26,6 @@ constexpr double kLongestUnexplained_s = 5.0;
 constexpr double kLikelierAnyway = 8.0;
 constexpr double kProof = 8.0;
 
-// Fewer ranges cannot prove that the place is lost, nor find it anew.
-constexpr std::size_t kFewestRanges = 5;
-
 // Without ranges for so long, what the motion adds outweighs how the first epochs are counted.
 constexpr double kLongestCounting_s = 2.0;
 
@@ -193,6 +190,7 @@ void EpochFilter::Remember(std::span<const RangeObservation> ranges, const Clock
   step.sources = std::move(sources);
   step.biases = biases;
   step.options = options;
+  step.epoch_seconds = seconds_;
 }
 
 std::optional<PositionStatement> EpochFilter::Place() const {
@@ -237,7 +235,7 @@ void EpochFilter::HearEpoch(const GnssEpochModel& model, const PointEstimate& po
     return;
   }
   if (verdicts.empty()) return;
-  if (verdicts.size() >= kFewestRanges && !Explained(verdicts)) {
+  if (!Explained(verdicts)) {
     unexplained_s_ += seconds_;
     if (unexplained_s_ > kLongestUnexplained_s) BeginAnew();
     return;
@@ -301,21 +299,16 @@ Eigen::Matrix3d EpochFilter::PositionCovarianceEnu() const {
 }
 
 void EpochFilter::GoBackTo(const EpochFilter& copy) {
-  *this = copy;
+  EpochFilter restored = copy;
+  *this = std::move(restored);  // which takes no memory any more
   if (!remembers_) return;
   steps_.list.CutFrom(steps_taken_);
   steps_.heard.CutFrom(steps_taken_);
-  if (!filter_.started()) return;
-  if (steps_.list.Has(steps_taken_ - 1)) {
-    // It may have heard more since it was copied.
-    steps_.list[steps_taken_ - 1] = filter_.step();
-    steps_.heard[steps_taken_ - 1].of_epoch = epoch_said_;
-    steps_.heard[steps_taken_ - 1].of_photos = photos_said_;
-  } else {
-    HeardStep heard;  // it was given up meanwhile
-    heard.time_ns = time_ns_;
-    NoteStep(std::move(heard));
-  }
+  if (!filter_.started() || !steps_.list.Has(steps_taken_ - 1)) return;
+  // It may have heard more since it was copied.
+  steps_.list[steps_taken_ - 1] = filter_.step();
+  steps_.heard[steps_taken_ - 1].of_epoch = epoch_said_;
+  steps_.heard[steps_taken_ - 1].of_photos = photos_said_;
 }
 
 void EpochFilter::Forget() {

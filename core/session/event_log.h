@@ -36,7 +36,7 @@ class EventLog {
   // Once per run of such photographs.
   void NotePhoto(const SessionEstimate& estimate);
   void NotePhotoFailed(const std::string& reason);
-  // By so much later than what was heard of its time is remembered: dropped.
+  // It is so much older than the newest moment, and was dropped.
   void NotePhotoTooLate(double late_s);
   void NoteMapDatum(const std::string& remark);
   // At most one event per sensor, at the sample's own time; its value is the number of the kind

@@ -24,6 +24,7 @@ struct HeardStep {
   // The epoch's ranges, and what was known beside them and the place; empty without an epoch.
   std::vector<RangeObservation> ranges;
   std::vector<RangeSource> sources;
+  double epoch_seconds = 0.0;  // since the epoch before; 0: none is known
   ClockBiases biases;
   PointOptions options;
   // What the epoch, and photographs, said of the place, as it was heard.

@@ -36,17 +36,26 @@ void MomentHearing::Begin() {
 
 void MomentHearing::HearEpoch(std::int64_t time_ns, const ObservationEpoch& epoch,
                               HeardMoment* heard) {
-  Begin();
   if (RemembersMoments()) {
-    if (recent_.GoesBack(time_ns)) recent_.Forget();
+    if (recent_.IsTooLate(time_ns)) recent_.Forget();
     RecentMoment* moment = recent_.Spare();
+    const std::size_t place = GoBackTo(time_ns);  // a photograph may have come before it
     moment->is_photo = false;
     moment->epoch = epoch;
     moment->sighting.reset();
     Save(time_ns, heard->estimate.time_gps_ns, moment);
-    present_ = recent_.Keep(recent_.count());
+    present_ = recent_.Keep(place);
   }
   Play(time_ns, epoch, heard);
+}
+
+std::size_t MomentHearing::GoBackTo(std::int64_t time_ns) {
+  const std::size_t place = recent_.CountBefore(time_ns);
+  if (place < recent_.count()) {
+    solver_->GoBackTo(recent_[place].solver);
+    photos_->GoBackTo(recent_[place].photos);
+  }
+  return place;
 }
 
 void MomentHearing::Play(std::int64_t time_ns, const ObservationEpoch& epoch, HeardMoment* heard) {
@@ -63,7 +72,6 @@ void MomentHearing::Play(std::int64_t time_ns, const ObservationEpoch& epoch, He
 }
 
 bool MomentHearing::HearPhoto(HeardMoment* heard) {
-  Begin();
   const std::int64_t time_ns = photos_->next_time_ns();
   if (!RemembersMoments()) {
     photos_->Hold(*sensors_, solver_->filter().AttitudeAt(time_ns));
@@ -77,12 +85,8 @@ bool MomentHearing::HearPhoto(HeardMoment* heard) {
     photos_->Drop();
     return false;
   }
-  const std::size_t place = recent_.CountBefore(time_ns);
-  if (place < recent_.count()) {
-    solver_->GoBackTo(recent_[place].solver);
-    photos_->GoBackTo(recent_[place].photos);
-  }
   RecentMoment* moment = recent_.Spare();
+  const std::size_t place = GoBackTo(time_ns);
   moment->is_photo = true;
   moment->sighting.reset();
   Save(time_ns, 0, moment);
@@ -130,7 +134,6 @@ void MomentHearing::HearAgain(RecentMoment* moment) {
 void MomentHearing::Forget() {
   recent_.Forget();
   present_.reset();
-  begun_ = false;
 }
 
 }  // namespace lodemark

@@ -35,6 +35,8 @@ class MomentHearing {
         events_(events),
         recent_(options) {}
 
+  // Before each of these, and before what is dropped.
+  void Begin();
   // An epoch of a time, its clock repaired. The times of *heard are given.
   void HearEpoch(std::int64_t time_ns, const ObservationEpoch& epoch, HeardMoment* heard);
   // The next photograph. False if it is dropped, as it came too late.
@@ -46,7 +48,8 @@ class MomentHearing {
   void Forget();
 
  private:
-  void Begin();
+  // What was known before a time; gives its place among those remembered.
+  std::size_t GoBackTo(std::int64_t time_ns);
   bool RemembersMoments() const;
   void Save(std::int64_t time_ns, std::int64_t time_gps_ns, RecentMoment* moment) const;
   void Play(std::int64_t time_ns, const ObservationEpoch& epoch, HeardMoment* heard);

@@ -8,9 +8,10 @@ namespace {
 
 // Exact for any two times, where a difference of int64 may not be one.
 bool IsLongBefore(std::int64_t earlier_ns, std::int64_t later_ns) {
-  return earlier_ns<later_ns&& static_cast<std::uint64_t>(later_ns) -
-                    static_cast<std::uint64_t>(
-                        earlier_ns)> static_cast<std::uint64_t>(RecentMoments::kLongestLate_ns);
+  if (earlier_ns >= later_ns) return false;
+  const auto apart_ns =
+      static_cast<std::uint64_t>(later_ns) - static_cast<std::uint64_t>(earlier_ns);
+  return apart_ns > static_cast<std::uint64_t>(RecentMoments::kLongestLate_ns);
 }
 
 }  // namespace

@@ -223,6 +223,7 @@ bool Session::ProcessNext() {
   // Of the same time the photograph first, so that the epoch has it.
   const bool frame_first =
       has_frame && (s.count == 0 || s.photos.next_time_ns() <= s.ring[s.first].time_ns);
+  s.hearing.Begin();
   s.heard.estimate = SessionEstimate();
   s.heard.satellites.clear();
   s.heard.landmarks.clear();

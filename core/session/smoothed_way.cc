@@ -18,6 +18,7 @@ SmoothedWay::Moment SmoothedWay::MomentOf(const SessionEstimate& estimate,
       filter.started() && !filter.steps().empty() && estimate.status != EstimateStatus::kNoData;
   if (moment.carried) {
     moment.step = filter.steps().end() - 1;
+    moment.step_ns = filter.heard()[moment.step].time_ns;
     if (estimate.status == EstimateStatus::kFix) {
       moment.ahead_in_ecef_m = estimate.position_in_ecef - filter.position_in_ecef();
       moment.beside_enu_m2 = estimate.covariance_enu_m2 - filter.FilteredCovarianceEnu();
@@ -47,8 +48,10 @@ const std::vector<SessionEstimate>& SmoothedWay::Estimates(const EpochFilter& fi
   estimates.reserve(moments_.all().size());
   for (const Moment& moment : moments_.all()) {
     SessionEstimate estimate = moment.estimate;
-    if (moment.carried && filter.steps().Has(moment.step)) {
-      const MotionState& state = states[moment.step - filter.steps().first()];
+    // Where memory ran out, the number may be another's by now.
+    if (moment.carried && filter.steps().Has(moment.step) &&
+        filter.heard()[moment.step].time_ns == moment.step_ns) {
+      const MotionState& state = states[moment.step];
       estimate.position_in_ecef = state.mean.head<3>() + moment.ahead_in_ecef_m;
       estimate.position = GeodeticFromEcef(estimate.position_in_ecef);
       const Eigen::Matrix3d enu_from_ecef = EnuFromEcefRotation(estimate.position);

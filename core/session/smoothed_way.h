@@ -31,7 +31,8 @@ class SmoothedWay {
   struct Moment {
     SessionEstimate estimate;
     bool carried = false;  // the filter had a state
-    std::size_t step = 0;  // which it was
+    std::size_t step = 0;  // which it was, and of what time
+    std::int64_t step_ns = 0;
     // Where the estimate was, seen from the state, and what its covariance had beside the state's.
     Eigen::Vector3d ahead_in_ecef_m = Eigen::Vector3d::Zero();
     Eigen::Matrix3d beside_enu_m2 = Eigen::Matrix3d::Zero();

@@ -88,12 +88,12 @@ class WayAgain {
       verdicts_[i].clear();
       if (heard_[i].ranges.empty()) continue;
       fresh_[i] = Ask(i, Without(said_[i], states[i]));
-      persistence.Learn(SecondsTo(i), heard_[i].sources, verdicts_[i]);
+      persistence.Learn(heard_[i].epoch_seconds, heard_[i].sources, verdicts_[i]);
     }
     const RangedErrors errors = persistence.Shares();
     for (std::size_t i = 0; i < heard_.size(); ++i) {
       if (heard_[i].ranges.empty()) continue;
-      const double seconds = SecondsTo(i) > 0.0 ? SecondsTo(i) : kUsual_s;
+      const double seconds = heard_[i].epoch_seconds > 0.0 ? heard_[i].epoch_seconds : kUsual_s;
       const double share = 1.0 / errors.AlikeEpochs(seconds);
       said_[i] = Together(Part(kHalf * share, fresh_[i]), Part(1.0 - kHalf, said_[i]));
     }
@@ -107,9 +107,7 @@ class WayAgain {
     MotionFilter filter;
     for (std::size_t i = 0; i < heard_.size(); ++i) {
       const bool same_moment = i > 0 && heard_[i].time_ns == heard_[i - 1].time_ns;
-      if (i == 0 && !before[i].begins) {
-        filter.Start(before[i].predicted);  // what led here is not remembered any more
-      } else if (i == 0 || (before[i].begins && !same_moment)) {
+      if (i == 0 || (before[i].begins && !same_moment)) {
         filter.Start(states[i].mean.head<3>(),
                      kAnywhere_m * kAnywhere_m * Eigen::Matrix3d::Identity());
       } else if (!same_moment) {

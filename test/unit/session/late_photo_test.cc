@@ -141,6 +141,8 @@ class LatePhoto : public ::testing::Test {
     EXPECT_EQ(first.satellites_seen, second.satellites_seen);
     EXPECT_EQ(first.landmarks_used, second.landmarks_used);
     EXPECT_EQ(first.photo, second.photo);
+    EXPECT_EQ(first.sources, second.sources);
+    EXPECT_EQ(first.accuracy_m, second.accuracy_m);
   }
   static void ExpectSame(const std::vector<SessionEstimate>& first,
                          const std::vector<SessionEstimate>& second, std::size_t from) {
@@ -176,6 +178,26 @@ TEST_F(LatePhoto, GivesWhatItWouldHaveGivenInTime) {
     // What was said before it came stays said: it is that of satellites.
     EXPECT_GT(Error(late, before - 1), 2.0 * Error(late, before));
     EXPECT_EQ(late.Count(EventKind::kPhotoTooLate), 0);
+  }
+}
+
+// The other way round: epochs that come after a photograph younger than they are.
+TEST_F(LatePhoto, LateEpochsAreHeardAtTheirTimesToo) {
+  const Run in_time = Drive(41);
+  for (const std::size_t before : {40u, 39u}) {
+    const Run early = Drive(before);
+    EXPECT_EQ(early.Count(EventKind::kFilterRestarted), 0);
+    EXPECT_EQ(early.Count(EventKind::kFixLost), 0);
+    for (std::size_t i = before; i < early.epochs.size(); ++i) {
+      ASSERT_EQ(early.epochs[i].status, EstimateStatus::kFix) << i;
+      if (i < 41) continue;
+      EXPECT_LT((early.epochs[i].position_in_ecef - in_time.epochs[i].position_in_ecef).norm(),
+                0.02)
+          << i;
+      EXPECT_LT((early.epochs[i].velocity_enu_mps - in_time.epochs[i].velocity_enu_mps).norm(),
+                0.02)
+          << i;
+    }
   }
 }
 
