@@ -25,12 +25,12 @@ target_include_directories(lodemark_flags INTERFACE ${CMAKE_SOURCE_DIR}
 
 # One folder, one target: lodemark_module(gnss SOURCES a.cc b.cc DEPENDS base geo LINKS Eigen3::Eigen)
 # makes the static library lodemark_gnss. PRIVATE_LINKS are libraries that stay in the .cc files;
-# SMALL are those of the sources where nothing is slow, so that a release makes them small.
+# SMALL are sources where nothing is slow, so that a release makes them small.
 function(lodemark_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;SMALL;DEPENDS;LINKS;PRIVATE_LINKS" ${ARGN})
-  if(ARG_SOURCES)
+  if(ARG_SOURCES OR ARG_SMALL)
     set_source_files_properties(${ARG_SMALL} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-Os>)
-    add_library(lodemark_${name} STATIC ${ARG_SOURCES})
+    add_library(lodemark_${name} STATIC ${ARG_SOURCES} ${ARG_SMALL})
     set(scope PUBLIC)
     target_link_libraries(lodemark_${name} PRIVATE ${ARG_PRIVATE_LINKS})
     set_target_properties(lodemark_${name} PROPERTIES CXX_VISIBILITY_PRESET hidden
